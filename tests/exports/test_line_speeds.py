@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.cardinal import CardinalSpline
@@ -41,6 +41,41 @@ def test_a_vehicle_that_keeps_what_is_set_is_nowhere_faster_than_the_plan(
         [settable.least(ends[k], ends[k + 1]) for k in line]
     )
     assert (driven <= planned * 1.02 + 0.05)[~braking & ~creeping].all()
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.lists(st.tuples(numbers, numbers), min_size=3, max_size=6, unique=True),
+    st.sampled_from([0.2, 0.5, 2.0]),
+)
+@example([(0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (30.0, 4.0)], 0.5)
+def test_with_a_limit_of_the_jerk_it_is_hardly_faster_either(
+    points: list[tuple[float, float]], max_jerk: float
+) -> None:
+    curve = CardinalSpline(points)
+    law = retime(curve, Limits(max_speed=3.0, max_accel=0.8, max_jerk=max_jerk))
+    settable = SettableSpeeds(law, 0.8, 0.8, max_jerk)
+    ends = np.linspace(0, curve.length, 40)
+    told = [settable.of_line(a, b) for a, b in pairwise(ends)]
+    place, speed, accel, step = 0.0, 0.0, 0.0, 0.01
+    limits = [np.array(law.speed_at(np.linspace(a, b, 40))).max() for a, b in pairwise(ends)]
+    for _ in range(int(3 * law.duration / step)):
+        line = int(np.searchsorted(ends, place, side="right")) - 1
+        if line >= len(told):
+            break
+        rest = curve.length - place
+        if rest < 3.0**2 / 1.6 + 3.0 * 0.8 / max_jerk + 0.2:
+            break  # the vehicle brakes to its rest by itself
+        creeping = told[line] > 1.01 * settable.least(ends[line], ends[line + 1])
+        assert speed <= 1.1 * limits[line] + 0.1 or creeping
+        # As hard as the jerk lets it, with the acceleration back at 0 at the speed it is told.
+        missing = told[line] - speed
+        wish = float(np.copysign(min(np.sqrt(2 * max_jerk * abs(missing)), 0.8), missing))
+        accel += float(np.clip(wish - accel, -max_jerk * step, max_jerk * step))
+        if missing < 0.0:
+            accel, speed = 0.0, max(told[line], speed - 0.8 * step)
+        speed = max(speed + accel * step, 1e-3)
+        place += speed * step
 
 
 @given(st.lists(st.floats(0.1, 5.0), min_size=1, max_size=30))

@@ -173,6 +173,19 @@ def test_a_yaml_parser_reads_a_path_whose_poses_look_along_it(tmp_path: Path) ->
     assert times[-1] == pytest.approx(PLANNED.trajectory.duration, abs=1e-6)
 
 
+def test_stamps_are_by_the_clock_of_the_mission(tmp_path: Path) -> None:
+    file = tmp_path / "path.path.yaml"
+    route = {"start": [0, 0], "goal": [9, 0], "depart_s": 40}
+    motion = {"from": [4, 9], "velocity_mps": [0, 0.2]}
+    cart = {"circle": {"center": [0, 0], "radius": 1}, "motion": motion}
+    late = plan(Mission.model_validate({"world": {"known": [cart]}, "route": route}))
+    export(late, file)
+    poses = YAML(typ="safe").load(file.read_text())["poses"]
+    assert poses[0]["header"]["stamp"] == {"sec": 40, "nanosec": 0}
+    last = poses[-1]["header"]["stamp"]
+    assert last["sec"] + 1e-9 * last["nanosec"] == pytest.approx(late.trajectory.end_time)
+
+
 def test_mcap_reads_one_message_that_holds_what_the_yaml_has(tmp_path: Path) -> None:
     reading = pytest.importorskip("mcap.reader", reason="mcap isn't installed")
     file, text = tmp_path / "path.mcap", tmp_path / "path.path.yaml"

@@ -151,3 +151,25 @@ def test_a_flight_takes_off_flies_and_lands(tmp_path: Path) -> None:
     assert back.route.takeoff is not None
     assert math.isclose(back.route.takeoff.to_agl_m, 20)
     assert back.route.land is not None
+
+
+def test_what_a_flight_passes_over_is_no_fence_and_is_named(tmp_path: Path) -> None:
+    known = [
+        {"name": "hall", "circle": {"center": [50, 0], "radius": 5}, "height_m": [0, 10]},
+        {"name": "mast", "circle": {"center": [30, 2], "radius": 2}},
+        {"circle": {"center": [80, 0], "radius": 3}, "height_m": [30, 60]},
+    ]
+    asked = {
+        "world": {"known": known},
+        "robot": {"radius_m": 0.5, "clearance_m": 1},
+        "route": {"start": [0, 0, 20], "via": [[50, 0, 20], [80, 0, 20]], "goal": [100, 0, 20]},
+    }
+    data = exported(asked, tmp_path / "x.plan")
+    assert [one["circle"]["radius"] for one in data["geoFence"]["circles"]] == [2]
+    lost = data["viaspline"]["path"]["not_carried"]
+    assert any(words.endswith("no top: hall, world.known[2]") for words in lost), lost
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MissionWarning)
+        back = load(tmp_path / "x.plan")
+    assert isinstance(back, Mission)
+    assert plan(back).certificate.holds  # past its own fences

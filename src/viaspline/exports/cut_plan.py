@@ -94,7 +94,7 @@ def settable_speeds(plan: Plan | SpatialPlan) -> SettableSpeeds:
     """What speeds may be set along a plan."""
     robot = plan.mission.robot
     brake = robot.max_brake_mps2 or robot.max_accel_mps2
-    return SettableSpeeds(plan.trajectory, robot.max_accel_mps2, brake)
+    return SettableSpeeds(plan.trajectory, robot.max_accel_mps2, brake, robot.max_jerk_mps3)
 
 
 def _fixed(plan: Plan | SpatialPlan) -> Floats:

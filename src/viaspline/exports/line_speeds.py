@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -21,6 +22,9 @@ MOST_LOST_S: Final = 0.5
 _FULL: Final = 0.9
 """Of the greatest acceleration, what counts as speeding up or braking as hard as can be."""
 
+_SAME_TIME: Final = 1.03
+"""With a limit of the jerk: of the least time for a change of speed, what counts as that."""
+
 _CREEPING: Final = 0.1
 """Of a line's greatest speed, below which not its least speed counts but its mean one."""
 
@@ -39,15 +43,18 @@ class SettableSpeeds:
         law: The time law.
         max_accel: The robot's greatest acceleration [m/s²].
         max_brake: Its greatest deceleration [m/s²].
+        max_jerk: The greatest change of either [m/s³]; None: no limit.
     """
 
-    def __init__(self, law: Trajectory, max_accel: float, max_brake: float) -> None:
+    def __init__(
+        self, law: Trajectory, max_accel: float, max_brake: float, max_jerk: float | None = None
+    ) -> None:
         ends = (float(law.distances[0]), float(law.distances[-1]))
         self._law = law
         self._at = np.union1d(law.distances, np.linspace(*ends, _SAMPLES))
         low = np.array(law.speed_at(self._at), np.float64)
         high = low.copy()
-        for first, last, speed in _ramps(law, max_accel, max_brake):
+        for first, last, speed in _ramps(law, max_accel, max_brake, max_jerk):
             inside = (self._at >= first) & (self._at <= last)
             low[inside] = np.maximum(low[inside], speed)
             high[inside] = speed
@@ -106,21 +113,41 @@ def set_speeds(speeds: Floats) -> Floats:
     return found
 
 
-def _ramps(law: Trajectory, max_accel: float, max_brake: float) -> list[tuple[float, float, float]]:
+def _ramps(
+    law: Trajectory, max_accel: float, max_brake: float, max_jerk: float | None
+) -> list[tuple[float, float, float]]:
     """Where the vehicle speeds up or brakes by itself: from, to [m], and the speed for it."""
     at, speed = law.distances, law.speeds
     step = np.diff(at)
     gain = np.divide(np.diff(speed**2), 2.0 * step, out=np.zeros(len(step)), where=step > 0.0)
-    is_smooth = law.changes is not None  # with a limit of the jerk, nothing is as hard as can be
+    is_smooth = max_jerk is not None  # nothing is as hard as can be all the time then
     up = (gain > 0.0) if is_smooth else (gain >= _FULL * max_accel)
     down = (gain < 0.0) if is_smooth else (gain <= -_FULL * max_brake)
     found: list[tuple[float, float, float]] = []
     for begin, end in _runs(up):
-        found.append((float(at[begin]), float(at[end]), float(speed[end])))
+        last = end
+        while last > begin and not _is_quick(law, begin, last, max_accel, max_jerk):
+            last -= 1
+        found.append((float(at[begin]), float(at[last]), float(speed[last])))
     for begin, end in _runs(down):
+        first = begin
+        while first < end and not _is_quick(law, first, end, max_brake, max_jerk):
+            first += 1
         if speed[end] == 0.0:
-            found.append((float(at[begin]), float(at[end]), float(speed[begin])))
+            found.append((float(at[first]), float(at[end]), float(speed[first])))
     return found
+
+
+def _is_quick(law: Trajectory, begin: int, end: int, accel: float, max_jerk: float | None) -> bool:
+    """Whether the speed changes from one node to another as quickly as it can."""
+    if max_jerk is None:
+        return True
+    change = abs(float(law.speeds[end] - law.speeds[begin]))
+    if change >= accel**2 / max_jerk:
+        least = change / accel + accel / max_jerk
+    else:
+        least = 2.0 * math.sqrt(change / max_jerk)
+    return float(law.times[end] - law.times[begin]) <= _SAME_TIME * least
 
 
 def _runs(flags: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> list[tuple[int, int]]:

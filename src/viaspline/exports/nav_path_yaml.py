@@ -15,7 +15,9 @@ FRAME = "map"
 
 
 class NavPathYaml:
-    """One message. The stamp of each pose is when the robot is there, from when it sets out.
+    """One message. The stamp of each pose is when the robot is there, by the mission's clock.
+
+    Where something moves it sets out at ``route.depart_s`` by that, else at 0.
 
     What is proven, and what isn't carried, are comments before it.
     """

@@ -14,7 +14,7 @@ from typing import ClassVar, Final, Literal, Protocol, TypeAlias, cast
 from viaspline.errors import OutputError
 from viaspline.exports.path_table import PathTable
 
-Carried: TypeAlias = Literal["speeds", "times", "dwells", "headings", "names", "curve"]
+Carried: TypeAlias = Literal["speeds", "times", "dwells", "headings", "names", "curve", "fences"]
 """What of a plan a format may have a place for, beside the points."""
 
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from viaspline.exports.corner_cut import turn_angles
+from viaspline.exports.flown_over import flown_over
 from viaspline.exports.path_format import PathFormat
 from viaspline.exports.path_table import PathTable
 from viaspline.planner import Plan
@@ -18,6 +19,9 @@ from viaspline.space.spatial_plan import SpatialPlan
 
 MOST_ITEMS = 700
 """About so many items fit into the memory of common autopilots."""
+
+MOST_NAMED = 4
+"""Obstacles that are named in a line."""
 
 
 def path_losses(plan: Plan | SpatialPlan, kind: PathFormat, table: PathTable) -> tuple[str, ...]:
@@ -59,6 +63,11 @@ def _left_out(plan: Plan | SpatialPlan, kind: PathFormat, table: PathTable) -> I
         yield "names of via points"
     if "headings" not in kind.carries and looks_elsewhere(plan):
         yield "headings that aren't along the path"
+    over = list(flown_over(plan.mission, table.points).values()) if "fences" in kind.carries else []
+    if over:
+        more = f" and {len(over) - MOST_NAMED} more" if len(over) > MOST_NAMED else ""
+        named = ", ".join(over[:MOST_NAMED]) + more
+        yield f"fences round what it passes over or under, as they have no top: {named}"
     if robot.turn_radius is not None:
         sharpest = math.degrees(float(turn_angles(table.points).max(initial=0.0)))
         circle = f"the turning circle of {robot.turn_radius:g} m"

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from viaspline.exports.flown_over import flown_over, without
 from viaspline.exports.path_format import Carried
 from viaspline.exports.path_items import path_itinerary
 from viaspline.exports.path_table import PathTable
@@ -18,20 +19,23 @@ from viaspline.report.json_text import plain
 class PlanOfPath:
     """The points of a path as way points, with what is on the map as fences.
 
+    Round what a flight passes over or under there is none: a vehicle would refuse to cross it.
+
     What is proven, and what of the plan isn't in the file, stands under a key of viaspline's own,
     which others pass over.
     """
 
     description: ClassVar[str] = "QGroundControl's plan"
     endings: ClassVar[tuple[str, ...]] = (".plan",)
-    carries: ClassVar[frozenset[Carried]] = frozenset({"speeds", "dwells", "headings"})
+    carries: ClassVar[frozenset[Carried]] = frozenset({"speeds", "dwells", "headings", "fences"})
     is_geographic: ClassVar[bool] = True
     is_driven: ClassVar[bool] = True
     spacing: ClassVar[float | None] = None
 
     def write(self, table: PathTable) -> bytes:
         """The file of a path."""
-        fences = itinerary_of(table.mission, table.origin).fences
+        fenced = without(table.mission, flown_over(table.mission, table.points))
+        fences = itinerary_of(fenced, table.origin).fences
         proof = table.proof
         own = {
             "origin": table.origin,
