@@ -8,11 +8,12 @@
 import { diff } from "../core/diff.js";
 import { robotColour } from "../fleet/colours.js";
 import { CompareCard } from "./compare_card.js";
+import { letterOf, rowOf } from "./compare_row.js";
 
 const MOST = 12;
 const BAND_PX = 1.8; // how much wider each path is than the next: where they agree all are seen
 
-/** @typedef {{name: string, make: (doc: any) => any, state: "waiting"|"planning"|"done"|"stopped", result: any}} Row */
+/** @typedef {import("./compare_row.js").Row} Row */
 
 export class Compare {
   /** @param {any} app */
@@ -184,9 +185,3 @@ export class Compare {
     });
   }
 }
-
-/** @param {import("./variant_kinds.js").Variant} variant @returns {Row} */
-const rowOf = ({ name, make }) => ({ name, make, state: "stopped", result: null });
-
-/** @param {number} index */
-export const letterOf = (index) => String.fromCharCode(65 + index);

@@ -4,10 +4,10 @@ import { isDark, onTheme } from "../draw/theme.js";
 import { robotColour } from "../fleet/colours.js";
 import { fill, h, icon, iconButton, lazily } from "../panels/dom.js";
 import { down, metres, seconds } from "../units.js";
-import { letterOf } from "./compare.js";
+import { letterOf } from "./compare_row.js";
 import { kindsOf, numbersIn } from "./variant_kinds.js";
 
-/** @typedef {import("./compare.js").Row} Row */
+/** @typedef {import("./compare_row.js").Row} Row */
 
 const COLUMNS = ["Variant", "Length", "Time", "Sharpest", "Clear", "Jumps", "Drives", ""];
 const BEST = /** @type {[string, 1|-1][]} */ ([["length", 1], ["duration", 1], ["radius", -1], ["clearance", -1], ["jumps", 1]]); // 1: the least is best
