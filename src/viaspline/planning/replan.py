@@ -36,6 +36,7 @@ from viaspline.planning.stretch import (
     stretch_round,
     stretches_on_round,
 )
+from viaspline.planning.taking_up import sooner_if_better
 from viaspline.planning.way_ahead import WayAhead
 from viaspline.world.world import World
 
@@ -49,8 +50,9 @@ def reflex(
 
     The stretch from the last via point before them to the first one after them is laid anew,
     detour via points of the old path counting too; where that can't be done, the legs between
-    the user via points. Blocked spans with a free leg between them, such as those of one place in
-    several laps, are stretches by themselves, with a ledger of the first.
+    the user via points. The old path is taken up before that where this is better. Blocked spans
+    with a free leg between them, such as those of one place in several laps, are stretches by
+    themselves, with a ledger of the first.
 
     Args:
         path: What is being driven.
@@ -98,13 +100,13 @@ def _led_round(way: WayAhead, blocked: NDArray[np.intp]) -> Solution:
     narrow = stretch_round(way.path.vias, users, way.u, blocked)
     wide = stretch_round(users, users, way.u, blocked)
     try:
-        return way.joined(narrow, rolling)
+        return sooner_if_better(way, narrow, blocked, way.joined(narrow, rolling))
     except SpentBudgetError:
         raise
     except PlanningError:
         if wide == narrow:
             raise
-    return way.joined(wide, rolling)
+    return sooner_if_better(way, wide, blocked, way.joined(wide, rolling))
 
 
 def planned(

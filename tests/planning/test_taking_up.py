@@ -1,0 +1,93 @@
+"""A path round something takes up the old one at a via point, or before that if it is better."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import viaspline as vs
+from viaspline.planning.checking.driving_time import driving_time
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.planning.replan import reflex
+from viaspline.planning.taking_up import LEFT_S
+
+
+def mission(*stops: tuple[float, float], optimise: str = "time") -> vs.Mission:
+    route = {"start": stops[0], "via": stops[1:-1], "goal": stops[-1], "optimise": optimise}
+    robot = {"radius_m": 0.5, "clearance_m": 0.5, "max_speed_mps": 2.0, "max_accel_mps2": 1.0,
+             "max_lateral_accel_mps2": 0.5}  # fmt: skip
+    return vs.Mission.model_validate({"robot": robot, "route": route})
+
+
+def met(asked: vs.Mission, at: float, aside: float, radius: float) -> tuple[vs.Plan, vs.World]:
+    """The plan, and a world in which a disc stands beside its path, some metres ahead."""
+    plan = vs.plan(asked)
+    u = float(plan.path.parameter(at))
+    ahead, left = plan.path.evaluate(u), plan.path.tangent(u)[::-1] * (-1.0, 1.0)
+    disc = vs.Obstacle(circle={"center": (ahead + aside * left).tolist(), "radius": radius})
+    return plan, plan.world.with_obstacles([disc])
+
+
+def cost(path: vs.Path, needs: Requirements) -> float:
+    rests = np.zeros(len(path.spans) + 1, np.bool_)
+    rests[[0, -1]] = True
+    return driving_time(path.spans, needs.objective.pace, rests)
+
+
+def sharpest_radius(path: vs.Path, begin: float) -> float:
+    u = np.linspace(float(path.parameter(begin)), path.domain[1], 20_001)
+    return float(1.0 / np.abs(path.curvature(u)).max())
+
+
+def test_a_turn_round_a_via_point_is_driven_as_it_was_behind_what_came_into_the_way() -> None:
+    asked = mission((50, 250), (140, 170), (270, 150), (290, 390))
+    plan, world = met(asked, 187.0, -8.0, 8.0)
+    needs = Requirements.of(asked)
+    new = reflex(plan.path, 150.0, world, needs)
+    assert sharpest_radius(plan.path, 150.0) > 2.0
+    assert sharpest_radius(new.path, 150.0) > 2.0  # 0.5 m where it is taken up at the via point
+    assert new.rejoins_at is not None
+    assert new.rejoins_at < new.path.distance(new.path.vias[-2].u) - 5.0
+    assert new.certificate.holds
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    st.floats(0.2, 0.8), st.floats(-3.0, 3.0), st.floats(1.0, 6.0), st.integers(0, 2**31),
+    st.sampled_from(["time", "length"]),
+)  # fmt: skip
+def test_a_path_that_may_be_taken_up_sooner_is_never_the_dearer_for_it(
+    share: float, aside: float, radius: float, seed: int, optimise: str
+) -> None:
+    stops = [tuple(p) for p in np.random.default_rng(seed).uniform(0.0, 150.0, (4, 2)).tolist()]
+    asked = mission(*stops, optimise=optimise)
+    try:
+        plan, world = met(asked, share * vs.plan(asked).path.length, aside, radius)
+    except vs.PlanningError:
+        return
+    at = max(share * plan.path.length - 25.0, 0.0)
+    needs = Requirements.of(asked)
+    little = WorkBudget(LEFT_S)  # is never left when a path was laid: so none is sought sooner
+    try:
+        late = reflex(plan.path, at, world, Requirements(**{**vars(needs), "budget": little}))
+    except vs.PlanningError:
+        return
+    new = reflex(plan.path, at, world, needs)
+    assert new.certificate.holds
+    for via in plan.path.vias:
+        if via.kind == "user":
+            assert via.at in [one.at for one in new.path.vias if one.kind == "user"]
+    if optimise == "time":
+        assert cost(new.path, needs) <= cost(late.path, needs) * (1.0 + 1e-3)
+    else:
+        assert new.path.length <= late.path.length + 1e-6
+
+
+def test_nothing_is_sought_where_little_work_is_left() -> None:
+    asked = mission((50, 250), (140, 170), (270, 150), (290, 390))
+    plan, world = met(asked, 187.0, -8.0, 8.0)
+    needs = Requirements.of(asked)
+    little = Requirements(**{**vars(needs), "budget": WorkBudget(LEFT_S)})
+    late = reflex(plan.path, 150.0, world, little)
+    assert late.rejoins_at == pytest.approx(late.path.distance(late.path.vias[-2].u))
