@@ -27,7 +27,7 @@ from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.stretch import Stretch
 from viaspline.planning.way_ahead import WayAhead
 
-LITTLE = 1e-2
+LITTLE = 2e-2
 """Part of its time that a path may lose to slow turns, or of its length by which it may be longer
 than the old one, without that another is looked for."""
 

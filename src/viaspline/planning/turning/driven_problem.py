@@ -28,6 +28,7 @@ from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, LegBends, bends_along, bends_of_legs
+from viaspline.planning.turning.end_turns import soonest_end_turns
 from viaspline.planning.turning.laid_turns import through_spans, through_turns
 from viaspline.planning.turning.lane_stays import LegLane
 from viaspline.planning.turning.local_detours import LANE_REACHES, LaneTurns, local_bends
@@ -201,7 +202,8 @@ class DrivenProblem(PathProblem):
             if spline_path is not None:
                 return spline_path
         for legs, rho in self._at_radii(again):
-            turn_path = self._turns_round(bends_of_legs(self.sequence, legs), rho)
+            bends = bends_of_legs(self.sequence, legs)
+            turn_path = self._turns_round(bends, rho, self._rests_at_ends)
             if turn_path is None:
                 continue
             spline_path = through_turns(self.sequence, [turn_path])
@@ -351,12 +353,29 @@ class DrivenProblem(PathProblem):
     def _roomy(self) -> float:
         return ROOMY_TURN_RADIUS * self.requirements.required
 
-    def _turns_round(self, bends: Bends, rho: float) -> TurnPath | None:
-        """Turns of at least a radius [m]: no wider ones where it is the length that counts."""
+    @property
+    def _rests_at_ends(self) -> tuple[bool, bool]:
+        """Whether the robot stands where the path begins, and where it ends."""
+        sequence = self.sequence
+        if sequence.closed:
+            return (False, False)
+        return sequence.stands(0), sequence.stands(len(sequence.vias) - 1)
+
+    def _turns_round(
+        self, bends: Bends, rho: float, rests: tuple[bool, bool] = (False, False)
+    ) -> TurnPath | None:
+        """Turns of at least a radius [m]: no wider ones where it is the length that counts.
+
+        Args:
+            bends: The row.
+            rho: The radius [m].
+            rests: Whether the robot stands where the row begins, and where it ends.
+        """
         if not self.requirements.objective.is_time:
             lay = short_turn_path if self.requirements.is_free_disc else clear_turn_path
             return lay(bends.turning(rho), self.world, self.requirements)
-        return self._wide_turns(rho).lay(bends, self.world, self.requirements)
+        turns = self._wide_turns(rho)
+        return soonest_end_turns(turns, bends, self.world, self.requirements, rests)
 
     def leg_on_sides(self, leg: int, bends: Bends, lay: LayTurns) -> TurnPath | None:
         """The turn path of one leg, if it keeps clear and to the sides that are asked for.

@@ -35,7 +35,6 @@ from viaspline.planning.turning.turn_path import (
     TurnPath,
     settled_turns,
     turn_path_on_sides,
-    with_sides,
 )
 from viaspline.world.world import World
 
@@ -66,28 +65,21 @@ class WideTurns:
     sharpest: float
     roomy: float
 
-    def lay(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
-        """The turn path with the widest turns that fit; None where not even the least are clear.
+    def pushed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+        """The least turns pushed clear, then as wide as fits round what they were pushed from.
 
-        Where a heading is given at an end, it is left to the side that makes the path shorter.
+        None where not even the least are clear.
         """
-        found = [self._narrowed_once(tried, world, requirements) for tried in with_sides(bends)]
-        clear = [turn_path for turn_path in found if turn_path is not None]
-        if not clear:
-            return self._pushed(bends, world, requirements)
-        return min(clear, key=lambda turn_path: turn_path.length)
-
-    def _pushed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
-        """The least turns pushed clear, then as wide as fits round what they were pushed from."""
         pushed = clear_turn_path(bends.turning(self.least), world, requirements)
         if pushed is None:
             return None
-        return self._narrowed_once(pushed.bends, world, requirements) or pushed
+        return self.narrowed(pushed.bends, world, requirements) or pushed
 
-    def _narrowed_once(
-        self, bends: Bends, world: World, requirements: Requirements
-    ) -> TurnPath | None:
-        """See ``_narrowed``: what came of it is kept."""
+    def narrowed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+        """The widest turns that fit, to the sides that are set; None where the least aren't clear.
+
+        What came of it is kept.
+        """
         lay = partial(self._narrowed, bends, world, requirements)
         return requirements.once(("wide", self, bends.key, world), lay)
 
