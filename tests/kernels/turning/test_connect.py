@@ -10,7 +10,8 @@ from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import connect, curvature_ramp
 from viaspline.kernels.turning.segment_chain import chain_spans, merged
 from viaspline.kernels.turning.settled_lines import FINE, HEADING, RADIUS, SIDE
-from viaspline.kernels.turning.turn_sequence import turn_sequence, turn_sequence_length
+from viaspline.kernels.turning.turn_sequence import turn_sequence
+from viaspline.kernels.turning.turn_spans import turn_sequence_length
 
 RHO, RAMP = 4.0, 1.5
 angles = st.floats(-math.pi, math.pi)

@@ -7,6 +7,7 @@ from scipy.integrate import quad
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import clothoid
+from viaspline.kernels.turning.needed_turns import needed_turns
 from viaspline.kernels.turning.settled_lines import (
     FINE,
     HEADING,
@@ -18,11 +19,8 @@ from viaspline.kernels.turning.settled_lines import (
     X,
     Y,
 )
-from viaspline.kernels.turning.turn_sequence import (
-    turn_sequence,
-    turn_sequence_length,
-    turn_sequence_spans,
-)
+from viaspline.kernels.turning.turn_sequence import turn_sequence
+from viaspline.kernels.turning.turn_spans import turn_sequence_length, turn_sequence_spans
 
 RHO = 4.0
 
@@ -173,3 +171,47 @@ def test_random_slaloms_round_corners_of_cells_settle_or_have_no_room():
         assert (tight.size > 0) == (state != FINE)
         served += state == FINE
     assert served > 50
+
+
+def random_row(seed, closed):
+    """Bends of a zigzag, some of them so close that those about them make them needless."""
+    random = np.random.default_rng(seed)
+    count = int(random.integers(4, 60))
+    points = np.column_stack(
+        (np.cumsum(random.uniform(2, 12, count)), random.uniform(-6, 6, count))
+    )
+    if closed:
+        angles = np.sort(random.uniform(0, math.tau, count))
+        points = 30 * np.column_stack((np.cos(angles), np.sin(angles))) + random.normal(
+            0, 1, (count, 2)
+        )
+    steps = np.diff(np.vstack((points[-1], points, points[0])), axis=0)
+    turns = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
+    rows = bends_through(points, kept=random.uniform(0.1, 1.5, count), side=np.sign(turns))
+    if closed:
+        rows[[0, -1], SIDE] = np.sign(turns)[[0, -1]]
+    rows[:, RADIUS] = random.uniform(0.5, 3.0)
+    return rows
+
+
+@pytest.mark.parametrize("closed", [False, True])
+@pytest.mark.parametrize("seed", range(30))
+def test_bends_that_are_left_are_laid_as_they_are_without_those_that_go(seed, closed):
+    rows = random_row(seed, closed)
+    left, lines, turns, apexes, ramps, state, tight = needed_turns(rows, closed, 1.0)
+    its_lines, its_turns, its_apexes, its_ramps, its_state, its_tight = turn_sequence(
+        rows[left], closed, 1.0
+    )
+    assert (state, tight.tolist()) == (its_state, its_tight.tolist())
+    assert state != LEFT_OUT
+    if state == FINE:
+        assert np.exp(1j * lines) == pytest.approx(np.exp(1j * its_lines), abs=1e-9)
+        assert turns == pytest.approx(its_turns, abs=1e-9)
+        assert apexes == pytest.approx(its_apexes, abs=1e-9)
+        assert ramps == pytest.approx(its_ramps, rel=1e-12)
+
+
+def test_rows_without_bends_that_go_are_among_the_random_ones_and_others():
+    sizes = [(random_row(seed, False), seed) for seed in range(30)]
+    gone = [len(rows) - len(needed_turns(rows, False, 1.0)[0]) for rows, _ in sizes]
+    assert min(gone) == 0 < max(gone)

@@ -29,26 +29,26 @@ def _length(turn: float, price: float) -> float:
 
 
 @inner
-def _price_of_line(turns: Floats, prices: Floats, i: int, k: int, room: float) -> float:
+def _price_of_line(first: float, second: float, before: float, after: float, room: float,
+                   price: float) -> float:  # fmt: skip
     """The least price of a line at which the turns at its ends leave each other room.
 
     Args:
-        turns: [rad], (n,).
-        prices: Of the turns without that of this line, (n,).
-        i: The turn before it.
-        k: The turn after it.
+        first: The turn before it [rad].
+        second: The turn after it [rad].
+        before: Price of the turn before it, without that of this line.
+        after: The same of the turn after it.
         room: That there is for the lengths of both [m].
+        price: A guess.
     """
-    price = 0.0
     for _ in range(MAX_NEWTON_STEPS):  # 1 / length² is nearly straight and concave: from below
-        before, after = prices[i] + price, prices[k] + price
-        first, second = _length(turns[i], before), _length(turns[k], after)
-        both = first + second
-        if both <= (1.0 + SETTLED) * room:
+        one, two = _length(first, before + price), _length(second, after + price)
+        both = one + two
+        if both <= (1.0 + SETTLED) * room and (price == 0.0 or both >= (1.0 - SETTLED) * room):
             break
-        slope = first / before if first > 0.0 else 0.0
-        slope += second / after if second > 0.0 else 0.0
-        price += both * ((both / room) ** 2 - 1.0) / slope
+        slope = one / (before + price) if one > 0.0 else 0.0
+        slope += two / (after + price) if two > 0.0 else 0.0
+        price = max(price + both * ((both / room) ** 2 - 1.0) / slope, 0.0)
     return price
 
 
@@ -66,24 +66,25 @@ def _shared(turns: Floats, rooms: Floats, closed: bool, top: float, lines: Float
         lengths: [m], (n,); filled.
     """
     count, last = turns.shape[0], rooms.shape[0]
-    prices = np.empty(count)
+    least = np.empty(count)
+    for k in range(count):
+        least[k] = (turns[k] / top) ** 2
     for _ in range(MAX_SWEEPS):
         moved = 0.0
         for j in range(last):
             k = (j + 1) % count
-            for at in (j, k):
-                prices[at] = (turns[at] / top) ** 2
-                if at < last and at != j:
-                    prices[at] += lines[at]
-                if (at > 0 or closed) and (at - 1) % count != j:
-                    prices[at] += lines[(at - 1) % count]
-            price = _price_of_line(turns, prices, j, k, rooms[j])
+            before, after = least[j], least[k]
+            if j > 0 or closed:
+                before += lines[(j - 1) % count]
+            if k < last and k != j:
+                after += lines[k]
+            price = _price_of_line(turns[j], turns[k], before, after, rooms[j], lines[j])
             moved = max(moved, abs(price - lines[j]) / max(price, lines[j], 1e-300))
             lines[j] = price
         if moved < SETTLED:
             break
     for k in range(count):
-        price = (turns[k] / top) ** 2
+        price = least[k]
         if k < last:
             price += lines[k]
         if k > 0 or closed:

@@ -12,7 +12,8 @@ import numpy as np
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning.settled_lines import FINE, HEADING, SIDE
-from viaspline.kernels.turning.turn_sequence import turn_sequence, turn_sequence_length
+from viaspline.kernels.turning.turn_sequence import turn_sequence
+from viaspline.kernels.turning.turn_spans import turn_sequence_length
 
 
 @kernel

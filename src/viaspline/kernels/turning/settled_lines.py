@@ -28,7 +28,7 @@ ROUGHLY_SETTLED_RAD = 1e-3  # the same, where lines are missing or turns overlap
 LEAST_RESTLESS = 0.05  # a line that still turns, of what the most restless one does
 WRONG_TURN_RAD = 1e-9  # by which a bend is turned at to the wrong side, at least [rad]
 WRONG_PER_SETTLED = 10.0  # the same, over the change of a heading in the last round
-UNMOVED = 1e-2  # of that: a turn between lines that change less stays as it is
+UNMOVED = 0.3  # of that: a turn between lines that change less stays as it is
 HOPELESS_ROUNDS = 40  # in which the least change isn't halved: they go round and round
 ROUGHLY_HOPELESS_ROUNDS = 16  # the same, where they need to settle roughly only
 ACCELERATED_RAD = 0.05  # change of a heading from which on the next changes are foreseen [rad]
@@ -37,7 +37,7 @@ GENTLE_TURN_RAD = 1.2  # turns up to this are reckoned from where their lines me
 
 
 @inner
-def _wrapped(angle: float, about: float) -> float:
+def wrapped(angle: float, about: float) -> float:
     """The angle plus whole turns, within half a turn of ``about``."""
     return angle - 2.0 * math.pi * math.floor((angle - about + math.pi) / (2.0 * math.pi))
 
@@ -57,7 +57,7 @@ def _line(circles: Floats, i: int, j: int) -> float:
 @inner
 def _turn_at(bend: Floats, before: float, after: float, last: float) -> float:
     """By how much the path turns at a bend, left positive; ``last`` is what it was."""
-    turn = _wrapped(after - before, last)
+    turn = wrapped(after - before, last)
     if not math.isnan(bend[HEADING]) and bend[SIDE] * turn < 0.0:
         turn += bend[SIDE] * 2.0 * math.pi  # from a given heading, to the given side
         if abs(turn) > 2.0 * math.pi - 1e-9:
@@ -119,23 +119,22 @@ def _place(bend: Floats, kind: int, turn: float, heading: float, ramp: float, ci
 
 
 @inner
-def _outcome(
-    bends: Floats, closed: bool, turns: Floats, state: int, tight: Flags, settled: float
-) -> int:  # fmt: skip
-    """A state, unless a bend is turned at to the wrong side: the others make it needless.
+def needless_bend(bends: Floats, closed: bool, turns: Floats, settled: float) -> int:
+    """The bend that is turned at most to the wrong side: the others make it needless; else -1.
 
     Only the last round tells: before the turns have settled, one may seem so that is needed.
-    ``tight`` is then that bend.
+
+    Args:
+        bends: As in ``turn_sequence``.
+        closed: The same.
+        turns: [rad], (n,).
+        settled: By how much headings changed in the last round [rad].
     """
     worst, found, count = -max(WRONG_TURN_RAD, WRONG_PER_SETTLED * settled), -1, bends.shape[0]
     for k in range(0 if closed else 1, count if closed else count - 1):
         if bends[k, SIDE] * turns[k] < worst:
             worst, found = bends[k, SIDE] * turns[k], k
-    if found < 0:
-        return state
-    tight[:] = False
-    tight[found] = True
-    return LEFT_OUT
+    return found
 
 
 @inner
@@ -194,19 +193,21 @@ def _lay(
 @inner
 def settle(
     bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats,
-    circles: Floats, apexes: Floats, tight: Flags, settled: float,
-) -> int:  # fmt: skip
+    circles: Floats, apexes: Floats, laid: Floats, tight: Flags, settled: float,
+) -> tuple[int, float]:  # fmt: skip
     """Let lines and turns settle, until no heading changes more than ``settled`` [rad] in a round.
 
-    Lines and turns have the values of a first guess.
+    Lines and turns have the values of a first guess, or of what they settled to before; ``laid`` is
+    infinite for turns that have changed since, see ``_lay``.
 
     Returns:
-        What came of it; ``tight`` says at which lines, or bends.
+        What came of it, and by how much headings still change [rad]; ``tight`` says at which
+        lines it failed.
     """
     count = bends.shape[0]
     last = count if closed else count - 1
     came_from, steps, steps_before = lines.copy(), np.zeros(last), np.zeros(last)
-    touching, laid = np.zeros(last), np.full((count, 2), np.inf)
+    touching = np.zeros(last)
     fresh = np.ones(count, np.bool_)
     moved, least, least_before = 0.0, math.inf, math.inf
     missing = False
@@ -224,7 +225,7 @@ def settle(
             tight[k] = math.isnan(touching[k])  # stays, until its ends have found their places
             missing = missing or tight[k]
             steps_before[k] = steps[k]
-            steps[k] = 0.0 if tight[k] else _wrapped(touching[k], lines[k]) - lines[k]
+            steps[k] = 0.0 if tight[k] else wrapped(touching[k], lines[k]) - lines[k]
             moved = max(moved, abs(steps[k]))
         if missing and round_ > 0 and moved < ROUGHLY_SETTLED_RAD:
             break
@@ -235,7 +236,7 @@ def settle(
             lines[k] = line - share * (line - came_from[k] - steps_before[k])
             came_from[k] = here
         if round_ > 0 and moved < settled:
-            return _outcome(bends, closed, turns, FINE, tight, settled)
+            return FINE, settled
         _lay(bends, closed, ramps, lines, turns, circles, apexes, laid, fresh, UNMOVED * settled)
     is_restless = moved >= (ROUGHLY_SETTLED_RAD if missing else max(RESTING_RAD, settled))
     if is_restless:
@@ -243,7 +244,7 @@ def settle(
     state = RESTLESS if is_restless else FINE
     if missing:
         state = NO_TANGENT
-    return _outcome(bends, closed, turns, state, tight, max(settled, moved))
+    return state, max(settled, moved)
 
 
 @inner
@@ -255,22 +256,3 @@ def _add_restless(steps: Floats, tight: Flags) -> None:
         before = abs(steps[k - 1]) if k > 0 else 0.0
         after = abs(steps[k + 1]) if k + 1 < steps.size else 0.0
         tight[k] = tight[k] or (here >= most and here >= before and here > after)
-
-
-@inner
-def guess_lines(bends: Floats, closed: bool, lines: Floats, turns: Floats, circles: Floats) -> None:
-    """Begin with the polyline through the bends' middles, and circles of what is kept."""
-    count = bends.shape[0]
-    last = count if closed else count - 1
-    for k in range(last):
-        after = (k + 1) % count
-        lines[k] = math.atan2(bends[after, Y] - bends[k, Y], bends[after, X] - bends[k, X])
-    for k in range(count):
-        circles[k, 0], circles[k, 1] = bends[k, X], bends[k, Y]
-        circles[k, 2] = bends[k, SIDE] * bends[k, KEPT]
-        turns[k] = 0.0
-        if closed or 0 < k < count - 1:
-            about = bends[k, SIDE]
-            turns[k] = _wrapped(lines[k % last] - lines[(k - 1) % last], about)
-        elif bends[k, SIDE] != 0.0:
-            turns[k] = bends[k, SIDE]

@@ -13,14 +13,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.turning.clothoid import (
-    MAX_SPAN_TURN_RAD,
-    MIN_TURN_RAD,
-    arc_and_ramp,
-    spans_between,
-    turn_length,
-    turn_nodes,
-)
+from viaspline.kernels.turning.guessed_lines import guess_again, guess_lines
 from viaspline.kernels.turning.settled_lines import (
     FINE,
     LEFT_OUT,
@@ -28,55 +21,13 @@ from viaspline.kernels.turning.settled_lines import (
     RADIUS,
     ROUGHLY_SETTLED_RAD,
     SETTLED_RAD,
-    X,
-    Y,
-    guess_lines,
+    needless_bend,
     settle,
-    turn_radius,
 )
+from viaspline.kernels.turning.turn_spans import fill_ends
 
 MIN_RAMP_RADII = 0.08  # of the radius
 RAMP_SHRINK = 0.6
-MAX_TURN_NODES = 64  # of one turn, at most
-MIN_STRAIGHT_M = 1e-3  # straight piece that is laid by itself [m]
-MIN_TO_POINT_M = 1e-6  # the same, from a turn to a point that stays where it is [m]
-
-
-@inner
-def _heading_at(bends: Floats, closed: bool, lines: Floats, turns: Floats, k: int) -> float:
-    """Heading at the apex of a bend [rad]."""
-    count = bends.shape[0]
-    if not closed and k == count - 1:
-        return lines[k - 1] + 0.5 * turns[k]
-    return lines[k] - 0.5 * turns[k]
-
-
-@inner
-def _nodes_of(
-    bends: Floats, closed: bool, lines: Floats, turns: Floats, apexes: Floats, ramps: Floats,
-    k: int, nodes: Floats,
-) -> int:  # fmt: skip
-    """Fill in the nodes of one bend, the apex in the middle; returns their number."""
-    heading = _heading_at(bends, closed, lines, turns, k)
-    if abs(turns[k]) < MIN_TURN_RAD:
-        nodes[0, 0], nodes[0, 1] = bends[k, X], bends[k, Y]
-        nodes[0, 2], nodes[0, 3] = heading, 0.0
-        return 1
-    radius = turn_radius(bends[k])
-    return turn_nodes(apexes[k, 0], apexes[k, 1], heading, turns[k], radius, ramps[k], nodes)
-
-
-@inner
-def _fill_ends(
-    bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats, apexes: Floats,
-    ends: Floats,
-) -> None:  # fmt: skip
-    """Where the turn of each bend begins and ends: x, y and x, y [m], (n, 4)."""
-    nodes = np.empty((MAX_TURN_NODES, 4))
-    for k in range(bends.shape[0]):
-        size = _nodes_of(bends, closed, lines, turns, apexes, ramps, k, nodes)
-        for i in range(2):
-            ends[k, i], ends[k, 2 + i] = nodes[0, i], nodes[size - 1, i]
 
 
 @inner
@@ -92,7 +43,7 @@ def _overlapping(lines: Floats, ends: Floats, tight: Flags) -> bool:
 
 
 @inner
-def _shortened(ramps: Floats, shortest: Floats, tight: Flags) -> bool:
+def _shortened(ramps: Floats, shortest: Floats, tight: Flags, laid: Floats) -> bool:
     """Shorten the ramps of the turns at tight lines, if all of them can be shorter.
 
     Of two such lines behind each other only the first's: that may make room on the other. If not
@@ -112,8 +63,59 @@ def _shortened(ramps: Floats, shortest: Floats, tight: Flags) -> bool:
         if tight[k] and k > eased + 1:
             for end in (k, (k + 1) % count):
                 ramps[end] = max(RAMP_SHRINK * ramps[end], shortest[end])
+                laid[end] = np.inf  # its turn is another one
             eased = k
     return True
+
+
+@inner
+def lay_turns(
+    bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats, circles: Floats,
+    apexes: Floats, tight: Flags,
+) -> tuple[int, bool]:  # fmt: skip
+    """Lay lines and turns that have the values of a guess, with shorter ramps where room is short.
+
+    Args:
+        bends: As in ``turn_sequence``, and so is the next one.
+        closed: The same.
+        ramps: As long as they may be [m], (n,); changed.
+        lines: [rad], (n - 1,) or (n,); changed.
+        turns: [rad], (n,); changed.
+        circles: What lines touch, (n, 3); changed.
+        apexes: [m], (n, 2); filled.
+        tight: The lines at which it failed, or the bend that is turned at most to the wrong side.
+
+    Returns:
+        What came of it, and whether the lines settled.
+    """
+    count = bends.shape[0]
+    ends, laid = np.empty((count, 4)), np.full((count, 2), np.inf)
+    shortest = MIN_RAMP_RADII * bends[:, RADIUS]
+    settled = ROUGHLY_SETTLED_RAD
+    while True:
+        tight[:] = False
+        state, moved = settle(
+            bends, closed, ramps, lines, turns, circles, apexes, laid, tight, settled
+        )
+        has_settled = state == FINE
+        needless = needless_bend(bends, closed, turns, moved)
+        if needless >= 0:
+            tight[:] = False
+            tight[needless] = True
+            return LEFT_OUT, has_settled
+        if has_settled:
+            fill_ends(bends, closed, ramps, lines, turns, apexes, ends)
+            if _overlapping(lines, ends, tight):
+                state = NO_ROOM
+            elif settled > SETTLED_RAD:
+                settled = SETTLED_RAD
+                continue
+        failed = tight.copy()
+        if state == FINE or not _shortened(ramps, shortest, tight, laid):
+            return state, has_settled
+        settled = ROUGHLY_SETTLED_RAD
+        if not has_settled:  # ramps and arcs that come and go, or lines that aren't there
+            guess_again(bends, closed, failed, lines, turns, circles, laid)
 
 
 @kernel
@@ -135,129 +137,7 @@ def turn_sequence(
     count = bends.shape[0]
     lines, turns = np.zeros(count if closed else count - 1), np.zeros(count)
     circles, apexes = np.zeros((count, 3)), np.zeros((count, 2))
-    ends, ramps = np.empty((count, 4)), ramp * bends[:, RADIUS]
-    shortest = MIN_RAMP_RADII * bends[:, RADIUS]
-    tight = np.zeros(lines.size, np.bool_)
+    ramps, tight = ramp * bends[:, RADIUS], np.zeros(lines.size, np.bool_)
     guess_lines(bends, closed, lines, turns, circles)
-    settled = ROUGHLY_SETTLED_RAD
-    while True:
-        tight[:] = False
-        state = settle(bends, closed, ramps, lines, turns, circles, apexes, tight, settled)
-        found = state == FINE
-        if found:
-            _fill_ends(bends, closed, ramps, lines, turns, apexes, ends)
-            if _overlapping(lines, ends, tight):
-                state = NO_ROOM
-            elif settled > SETTLED_RAD:
-                settled = SETTLED_RAD
-                continue
-        if state in (FINE, LEFT_OUT) or not _shortened(ramps, shortest, tight):
-            return lines, turns, apexes, ramps, state, np.flatnonzero(tight)
-        settled = ROUGHLY_SETTLED_RAD
-        if not found:  # restless: ramps and arcs that come and go
-            guess_lines(bends, closed, lines, turns, circles)
-
-
-@inner
-def _straight(nodes: Floats, a: int, b: int, polygons: Floats) -> None:
-    for axis in range(2):
-        start, end = nodes[a, axis], nodes[b, axis]
-        for i in range(4):
-            polygons[i, axis] = start + (end - start) * i / 3.0
-
-
-@kernel
-def turn_sequence_spans(
-    bends: Floats, closed: bool, lines: Floats, turns: Floats, apexes: Floats, ramps: Floats
-) -> tuple[Floats, Ints]:  # fmt: skip
-    """The spans of a swing.
-
-    Args:
-        bends: (n, 6).
-        closed: As in ``turn_sequence``.
-        lines: What ``turn_sequence`` found.
-        turns: The same.
-        apexes: The same.
-        ramps: The same.
-
-    Returns:
-        Bézier control polygons (m, 4, 2) [m], and for every bend the span that begins at its
-        apex, (n,), or (n + 1,) when closed: the last one is the end of the curve.
-    """
-    count = bends.shape[0]
-    total = count + 1 if closed else count
-    polygons = np.empty((3 * MAX_TURN_NODES * total, 4, 2))
-    begins = np.zeros(total, np.int64)
-    nodes, lengths = np.empty((MAX_TURN_NODES + 1, 4)), np.empty(MAX_TURN_NODES)
-    size = 0
-    was_point = False
-    for row in range(total):
-        k = row % count
-        number = _nodes_of(bends, closed, lines, turns, apexes, ramps, k, nodes[1:])
-        if number > 1:
-            _lengths(abs(turns[k]), turn_radius(bends[k]), ramps[k], number, lengths)
-        first, end, middle = 1, number, 1 + number // 2
-        if closed and row == 0:
-            first = middle
-        elif closed and row == count:
-            end = middle
-        elif not closed and row == 0:
-            middle = first
-        elif not closed and row == count - 1:
-            middle = end
-        if row > 0:
-            gap = math.hypot(nodes[first, 0] - nodes[0, 0], nodes[first, 1] - nodes[0, 1])
-            to_point = number == 1 and gap > (0.0 if was_point else MIN_TO_POINT_M)
-            if gap > MIN_STRAIGHT_M or to_point:
-                _straight(nodes, 0, first, polygons[size])
-                size += 1
-            elif number == 1 and size > 0:  # a point is where it was asked for
-                for axis in range(2):
-                    polygons[size - 1, 3, axis] = nodes[first, axis]
-            else:
-                for axis in range(2):
-                    nodes[first, axis] = nodes[0, axis]
-        was_point = number == 1
-        begins[row] = size + 3 * (middle - first)
-        if end > first:
-            spans_between(
-                nodes[first : end + 1], end - first + 1, lengths[first - 1 :],
-                polygons[size : size + 3 * (end - first)],
-            )  # fmt: skip
-            size += 3 * (end - first)
-        for column in range(4):
-            nodes[0, column] = nodes[end, column]
-    return polygons[:size].copy(), begins
-
-
-@inner
-def _lengths(theta: float, rho: float, ramp: float, number: int, lengths: Floats) -> None:
-    """Lengths between the nodes of a turn [m]."""
-    radius, ramp = arc_and_ramp(theta, rho, ramp)
-    on_ramp = 0.5 * ramp / radius
-    half = number // 2
-    ramps = max(1, math.ceil(on_ramp / MAX_SPAN_TURN_RAD))
-    arcs = half - ramps
-    for k in range(half):
-        piece = ramp / ramps
-        if k >= ramps:
-            piece = radius * (0.5 * theta - on_ramp) / arcs
-        lengths[k] = piece
-        lengths[2 * half - 1 - k] = piece
-
-
-@kernel
-def turn_sequence_length(
-    bends: Floats, closed: bool, lines: Floats, turns: Floats, apexes: Floats, ramps: Floats
-) -> float:  # fmt: skip
-    """Length of a swing [m]."""
-    count = bends.shape[0]
-    ends = np.empty((count, 4))
-    _fill_ends(bends, closed, ramps, lines, turns, apexes, ends)
-    length = 0.0
-    for k in range(count):
-        length += turn_length(turns[k], turn_radius(bends[k]), ramps[k])
-        if closed or k < count - 1:
-            after = (k + 1) % count
-            length += math.hypot(ends[after, 0] - ends[k, 2], ends[after, 1] - ends[k, 3])
-    return length
+    state, _ = lay_turns(bends, closed, ramps, lines, turns, circles, apexes, tight)
+    return lines, turns, apexes, ramps, state, np.flatnonzero(tight)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.routing.tangent_arcs import BEND_RADIUS, BEND_X, BEND_Y
 from viaspline.kernels.routing.tangent_arcs import SIDE as BEND_SIDE
 from viaspline.kernels.turning.settled_lines import HEADING, KEPT, RADIUS, SIDE, X, Y
@@ -64,6 +64,12 @@ class Bends:
         """These bends without some of them."""
         rows, swings = np.delete(self.rows, needless, axis=0), np.delete(self.swings, needless)
         return Bends(rows, np.delete(self.vias, needless), swings, self.closed)
+
+    def only(self, left: Ints) -> Bends:
+        """Those of these bends, (k,), in their order."""
+        if len(left) == len(self.rows):
+            return self
+        return Bends(self.rows[left], self.vias[left], self.swings[left], self.closed)
 
     def turning(self, radii: float | Floats) -> Bends:
         """These bends with other least radii of their turns: one [m], or one for each, (n,)."""

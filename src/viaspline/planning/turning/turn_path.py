@@ -14,12 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.turning.settled_lines import FINE, LEFT_OUT, WRONG_TURN_RAD
-from viaspline.kernels.turning.turn_sequence import (
-    turn_sequence,
-    turn_sequence_length,
-    turn_sequence_spans,
-)
+from viaspline.kernels.turning.needed_turns import needed_turns
+from viaspline.kernels.turning.settled_lines import FINE
+from viaspline.kernels.turning.turn_spans import turn_sequence_length, turn_sequence_spans
 from viaspline.planning.turning.bend_row import HEADING, SIDE, Bends
 
 OVERSHOOT = 1.0035  # of the least radius over the turning circle: cubics bend a little more
@@ -129,29 +126,11 @@ def settled_turns(bends: Bends, ramp: float = RAMP) -> SettledTurns | NoTurnPath
         bends: The row.
         ramp: Length of the ramps, in radii.
     """
-    left = np.arange(len(bends.rows))
-    while True:
-        *lines_and_turns, state, tight = turn_sequence(bends.rows, bends.closed, ramp)
-        if state != LEFT_OUT:
-            break
-        needless = _needless(bends, lines_and_turns[1], int(tight[0]))
-        bends, left = bends.without(needless), np.delete(left, needless)
+    left, *lines_and_turns, state, tight = needed_turns(bends.rows, bends.closed, ramp)
+    bends = bends.only(left)
     if state != FINE:
         return NoTurnPath(bends, left, int(state), tight)
     return SettledTurns(bends, left, tuple(lines_and_turns))
-
-
-def _needless(bends: Bends, turns: Floats, worst: int) -> NDArray[np.intp]:
-    """The bends at which a path turns to the wrong side: of neighbours the one that does so most.
-
-    Without that one the others may be needed again. The worst of all is among them.
-    """
-    wrong = np.minimum(bends.rows[:, SIDE] * turns, 0.0)
-    if not bends.closed:
-        wrong[[0, -1]] = 0.0
-    before, after = np.roll(wrong, 1), np.roll(wrong, -1)
-    found = np.flatnonzero((wrong < -WRONG_TURN_RAD) & (wrong < before) & (wrong <= after))
-    return np.union1d(found, worst)
 
 
 def with_sides(bends: Bends) -> Iterator[Bends]:

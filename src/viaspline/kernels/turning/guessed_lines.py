@@ -1,0 +1,80 @@
+"""Where lines and turns round a row of bends begin, before they settle.
+
+Tested through ``kernels/turning/test_turn_sequence``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.jit import inner
+from viaspline.kernels.turning.settled_lines import KEPT, SIDE, X, Y, wrapped
+
+GUESSED_ABOUT = 2  # lines before and after one at which it failed, that are guessed again with it
+
+
+@inner
+def guess_lines(bends: Floats, closed: bool, lines: Floats, turns: Floats, circles: Floats) -> None:
+    """Begin with the polyline through the bends' middles, and circles of what is kept."""
+    count, last = bends.shape[0], lines.shape[0]
+    for k in range(last):
+        lines[k] = _middles_line(bends, k)
+    for k in range(count):
+        _guess_turn(bends, closed, k, lines, turns, circles)
+
+
+@inner
+def guess_again(
+    bends: Floats, closed: bool, tight: Flags, lines: Floats, turns: Floats, circles: Floats,
+    laid: Floats,
+) -> None:  # fmt: skip
+    """Begin anew about lines that are tight, and leave the others where they settled.
+
+    Args:
+        bends: As in ``turn_sequence``, and so is the next one.
+        closed: The same.
+        tight: Of which lines, (m,).
+        lines: [rad], (m,); changed.
+        turns: [rad], (n,); changed.
+        circles: What lines touch, (n, 3); changed.
+        laid: As in ``_lay``; changed.
+    """
+    count, last = bends.shape[0], lines.shape[0]
+    for k in range(last):
+        if not tight[k]:
+            continue
+        for i in range(k - GUESSED_ABOUT, k + GUESSED_ABOUT + 1):
+            if closed or 0 <= i < last:
+                lines[i % last] = _middles_line(bends, i % last)
+    for k in range(last):
+        if not tight[k]:
+            continue
+        for i in range(k - GUESSED_ABOUT, k + GUESSED_ABOUT + 2):
+            if closed or 0 <= i < count:
+                _guess_turn(bends, closed, i % count, lines, turns, circles)
+                laid[i % count] = np.inf
+
+
+@inner
+def _middles_line(bends: Floats, k: int) -> float:
+    """Heading from the middle of a bend to that of the next."""
+    after = (k + 1) % bends.shape[0]
+    return math.atan2(bends[after, Y] - bends[k, Y], bends[after, X] - bends[k, X])
+
+
+@inner
+def _guess_turn(
+    bends: Floats, closed: bool, k: int, lines: Floats, turns: Floats, circles: Floats
+) -> None:
+    """The turn of a bend between guessed lines, round a circle of what is kept."""
+    count, last = bends.shape[0], lines.shape[0]
+    circles[k, 0], circles[k, 1] = bends[k, X], bends[k, Y]
+    circles[k, 2] = bends[k, SIDE] * bends[k, KEPT]
+    turns[k] = 0.0
+    if closed or 0 < k < count - 1:
+        turns[k] = wrapped(lines[k % last] - lines[(k - 1) % last], bends[k, SIDE])
+    elif bends[k, SIDE] != 0.0:
+        turns[k] = bends[k, SIDE]
