@@ -106,9 +106,10 @@ def test_corridors_without_one_shape_are_refused(corridor: dict[str, Any], words
 
 
 def test_an_edge_that_folds_names_its_rows() -> None:
-    bend = [[0, 0, 1, 1], [10, 0, 1, 9], [12, 2, 1, 9], [10, 4, 1, 9], [0, 4, 1, 1]]
+    bend = [[0, 0, 1, 1], [10, 0, 1, 8.5], [12, 2, 1, 8.5], [10, 4, 1, 8.5], [0, 4, 1, 1]]
     messages = faults({"line": bend}, goal=[0, 4])
-    assert any("the edge on the left folds over itself between rows" in text for text in messages)
+    words = "the edge on the left folds over itself between rows 2 and 3: 8.5 m is more than"
+    assert any(words in text for text in messages)
 
 
 def test_points_outside_the_corridor_are_refused_with_the_nearest_place() -> None:

@@ -161,10 +161,12 @@ LIMIT_DECIMALS: Final = 12
 def number(value: float, decimals: int = 3) -> str:
     """A number for people: no more decimals than asked for, no needless zeros.
 
+    Numbers of numpy, too, which ``repr`` would write with their type's name.
+
     >>> number(12.0), number(0.58049), number(-0.0001)
     ('12', '0.58', '0')
     """
-    rounded = round(value, decimals) + 0.0
+    rounded = round(float(value), decimals) + 0.0
     if rounded == 0:
         return "0"
     return repr(int(rounded)) if rounded == int(rounded) else repr(rounded)
