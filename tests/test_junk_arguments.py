@@ -39,6 +39,7 @@ TO_NOWHERE = "no such folder/x.plan"
 JUNK: list[Any] = [
     None, "x", b"x", float("nan"), 10**400, -1, [], {}, [[1]], [["a", "b"]], [None], object(),
     [[0, 0], [float("nan"), 1]], np.zeros((0, 2)), np.zeros((2, 2, 2)), np.array(["a"]), print,
+    "x" * 5000, "\0",
 ]  # fmt: skip
 
 

@@ -85,6 +85,24 @@ def read_bytes(path: str | Path, kind: FileKind) -> bytes:
         raise _refusal(path, f"can't be read: {error}", remedy) from None
 
 
+def is_there(path: str | Path) -> bool:
+    """Whether there is something of a name, which may be too long or too odd for any.
+
+    >>> is_there("x" * 5000)
+    False
+    """
+    return os.path.exists(path)
+
+
+def is_folder(path: str | Path) -> bool:
+    """Whether there is a folder of a name, which may be too long or too odd for any.
+
+    >>> is_folder("/"), is_folder("x" * 5000)
+    (True, False)
+    """
+    return os.path.isdir(path)
+
+
 def _content(path: str | Path, file: int, size: int, kind: FileKind) -> bytes:
     """What an open file holds; a byte too much is enough to refuse it."""
     parts: list[bytes] = []

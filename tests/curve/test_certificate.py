@@ -256,3 +256,8 @@ def test_a_dimension_without_a_plane_is_refused() -> None:
 def test_numbers_that_are_not_finite_are_refused(clearance: float, radius: float) -> None:
     with pytest.raises(GeometryError, match="finite"):
         certify(straight((0, 0), (1, 0)), World(), clearance, radius=radius)
+
+
+def test_a_radius_below_nothing_is_refused() -> None:
+    with pytest.raises(GeometryError, match="radius is -1"):
+        certify(straight((0, 0), (1, 0)), World(), 1.0, radius=-1)

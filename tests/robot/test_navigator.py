@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -43,6 +45,26 @@ def test_a_step_leaves_the_navigator_as_it_was(mission_of: Make) -> None:
     assert first[1].events == second[1].events
     assert "detected" not in [event.kind for event in nav.events]
     assert np.array_equal(first[1].path.spans, second[1].path.spans)
+
+
+def test_a_stored_navigator_goes_on_as_itself(mission_of: Make) -> None:
+    driven = drive(Navigator(mission_of([0, 0], [50, 0])), 4.0)
+    state = driven.reference(4.0)
+    expected, _ = driven.step(state, [ROCK], 4.0)
+    for stored in (pickle.loads(pickle.dumps(driven)), copy.deepcopy(driven)):
+        command, after = stored.step(state, [ROCK], 4.0)
+        assert command == expected
+        assert [event.kind for event in after.events] == ["detected", "replanned"]
+
+
+def test_a_position_may_be_an_array(mission_of: Make) -> None:
+    nav = Navigator(mission_of([0, 0], [50, 0]))
+    for time in (0.0, 0.1, 0.2):
+        state = RobotState(np.array([0.0, 0.0]), 0.0, 0.0)  # type: ignore[arg-type]
+        _, nav = nav.step(state, [], time)
+    assert state == RobotState((0.0, 0.0), 0.0, 0.0)
+    with pytest.raises(GeometryError, match="position: expected numbers"):
+        RobotState("ab", 0.0, 0.0)  # type: ignore[arg-type]
 
 
 def test_what_is_known_already_makes_no_difference(mission_of: Make, disc_at: Shape) -> None:

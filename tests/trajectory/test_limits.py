@@ -24,6 +24,12 @@ def test_a_limit_that_makes_no_sense_is_named(name: str, value: float) -> None:
         Limits(**({"max_speed": 1.0, "max_accel": 1.0} | {name: value}))
 
 
+@pytest.mark.parametrize("value", [1e-300, 1e300])
+def test_a_limit_that_no_robot_has_is_named_with_the_range(value: float) -> None:
+    with pytest.raises(GeometryError, match=r"max_speed is 1e.*give a number from 1e-12 to"):
+        Limits(max_speed=value, max_accel=1.0)
+
+
 def test_limits_of_axes_are_values_that_compare_and_hash() -> None:
     a = Limits(max_speed=1, max_accel=1, axis_accel=np.array([1, 2]))
     b = Limits(max_speed=1.0, max_accel=1.0, axis_accel=(1.0, 2.0))

@@ -13,6 +13,7 @@ from typing import Any, Final
 
 from viaspline.bags.mcap_reader import read_mcap
 from viaspline.bags.raw_message import BagExtent, RawMessage, Wanted
+from viaspline.bounded_file import is_folder, is_there
 from viaspline.errors import BagError
 from viaspline.ros_messages.message_types import full_name
 
@@ -31,8 +32,8 @@ def read_bag(path: Path, wanted: Wanted, extent: BagExtent) -> Iterator[RawMessa
         BagError: It is none of these, or can't be read.
         OutputError: It needs the extra, which isn't installed.
     """
-    if not path.is_dir():
-        if not path.exists():
+    if not is_folder(path):
+        if not is_there(path):
             raise BagError(path, "there is no such file; give a .mcap, or the folder of a rosbag2")
         yield from _file(path, wanted, extent)
         return

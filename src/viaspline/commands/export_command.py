@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from viaspline.bounded_file import is_folder
 from viaspline.commands.command_steps import load_asked, progress_bar, result_folder
 from viaspline.report.terminal_lines import say
 
@@ -135,7 +136,7 @@ def _is_saved(given: Path) -> bool:
     """Whether it is a plan that was saved: its folder, or the ``plan.json`` in that."""
     from viaspline.saved_plans.load_plan import PLAN_NAME
 
-    return given.is_dir() or given.name == PLAN_NAME
+    return is_folder(given) or given.name == PLAN_NAME
 
 
 def _loaded(folder: Path, watch: ProgressBar) -> Plan | SpatialPlan:

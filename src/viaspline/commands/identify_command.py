@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from viaspline.bounded_file import is_folder
 from viaspline.report.terminal_lines import say
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def identify(
 
 def _read(log: Path) -> DriveLog:
     """A log in any of the formats that are understood."""
-    if log.is_dir() or log.suffix.lower() in BAGS:
+    if is_folder(log) or log.suffix.lower() in BAGS:
         from viaspline.bags.read_drive import read_drive
         from viaspline.identify.merged_log import merged_log
 

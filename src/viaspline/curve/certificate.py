@@ -124,7 +124,8 @@ def certify(
         GeometryError: When only values of the curve are known, or it bends more than it says; when
             it is not in the plane or in space, or the world is in space and the curve isn't; when
             there is a footprint, and the curve's tangents aren't those of the cubics it is proven
-            by; when clearance or radius is not a finite number, or the footprint is no polygon
+            by; when clearance or radius is not a finite number, or the radius below 0, or the
+            footprint is no polygon
             about the reference point, or the world isn't in the plane.
 
     Example:
@@ -161,6 +162,8 @@ def certify(
     required = clearance + radius
     if not math.isfinite(required):
         raise GeometryError(f"clearance {clearance} and radius {radius} have to be finite")
+    if radius < 0.0:
+        raise GeometryError(f"radius is {radius}; give 0 for a point, or more")
     found = _proven(_bounder(curve, world, footprint), required + whole.off)
     contact = None if found.nearest == -1 else found.contact
     u = float(found.span + found.w)

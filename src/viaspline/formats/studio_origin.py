@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import Any, Final
 
-from viaspline.bounded_file import FileKind, read_text
+from viaspline.bounded_file import FileKind, is_there, read_text
 from viaspline.errors import Fault, MissionError
 from viaspline.formats.items import LatLon
 
@@ -41,7 +41,7 @@ def studio_origin(mission: Path) -> LatLon | None:
     True
     """
     file = beside(mission)
-    if not file.exists():
+    if not is_there(file):
         return None
     try:
         data = json.loads(read_text(file, STUDIO_FILE))

@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
+from viaspline.bounded_file import is_folder
 from viaspline.maps.area import Area
 from viaspline.maps.grid import Grid
 from viaspline.maps.map_faults import refusal
@@ -36,7 +37,7 @@ def is_of_squares(path: Path) -> bool:
         remedy = "give the YAML file of ROS's map_server that names it and says how large it is"
         raise refusal(path, "is a picture, not a map", remedy)
     if suffix not in _OF_SQUARES + _OF_AREAS:
-        problem = "is a folder" if path.is_dir() else "is a kind of map that isn't understood"
+        problem = "is a folder" if is_folder(path) else "is a kind of map that isn't understood"
         raise refusal(path, problem, UNDERSTOOD)
     return suffix in _OF_SQUARES
 

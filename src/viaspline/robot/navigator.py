@@ -26,6 +26,7 @@ from viaspline.robot.navigation.rounds import grows_after
 from viaspline.robot.navigator_step import step_taken
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
+from viaspline.robot.plan_at_hand import check_plan_of
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
 from viaspline.robot.warmed import KernelCallback, warm_up
@@ -103,7 +104,8 @@ class Navigator:
     Raises:
         PlanningError: When there is no path at all, or none was found.
         GaveUpError: When a budget ran out before that was known.
-        GeometryError: When the sensor sees no farther than the robot's body.
+        GeometryError: When the sensor sees no farther than the robot's body, or the plan is one for
+            another robot or route.
 
     Example:
         >>> mission = Mission.model_validate({
@@ -135,7 +137,7 @@ class Navigator:
         check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
         reaction, period = time_from("reaction", reaction), time_from("period", period)
         if plan is not None:
-            check_kind("plan", plan, Plan, "give plan(mission)")
+            check_plan_of(mission, plan)
         warm_up(mission, progress, warm)
         limits = limits_of(mission.robot, reaction)
         plan = plan_mission(mission) if plan is None else plan

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from viaspline.handed_in import numbers_from
 from viaspline.presentable.compared_by_value import ComparedByValue
 
 
@@ -16,12 +17,15 @@ class RobotState:
     """Where the robot is, as measured.
 
     Attributes:
-        position: Of its centre [m], shape (d,).
+        position: Of its centre [m], shape (d,); an array is kept as the tuple of its numbers.
         heading: Of its body, anticlockwise from x [rad].
         speed: Forward, along its body [m/s].
         speed_across: To the left, across its body [m/s]; 0 of a robot that can't.
         stamp: When that was measured, by the clock of the steps [s]; None: now, whenever it is
             handed in. What is older than 0.2 s stops the robot.
+
+    Raises:
+        GeometryError: When the position is no row of numbers.
 
     >>> RobotState((3.0, 4.0), heading=1.57, speed=0.8, stamp=12.05).position
     (3.0, 4.0)
@@ -32,6 +36,11 @@ class RobotState:
     speed: float
     speed_across: float = 0.0
     stamp: float | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.position, tuple):
+            place = numbers_from("position", self.position).ravel()
+            object.__setattr__(self, "position", tuple(place.tolist()))
 
 
 @dataclass(frozen=True, eq=False)

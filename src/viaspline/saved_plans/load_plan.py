@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
+from viaspline.bounded_file import is_folder, is_there
 from viaspline.errors import SavedPlanError
 from viaspline.formats.asked_for import AskedMission, asked_mission
 from viaspline.handed_in import check_kind
@@ -57,8 +58,8 @@ def load_plan(folder: str | Path, mission: AskedMission | None = None) -> Plan |
     """
     check_kind("folder", folder, (str, Path), "give the path of a folder with plan.json")
     file = Path(folder)
-    if file.name != PLAN_NAME or file.is_dir():
-        if (file / FLEET_NAME).exists() and not (file / PLAN_NAME).exists():
+    if file.name != PLAN_NAME or is_folder(file):
+        if is_there(file / FLEET_NAME) and not is_there(file / PLAN_NAME):
             raise SavedPlanError(file, WHOLE_FLEET)
         file = file / PLAN_NAME
     saved = PlanFile.read(file)

@@ -19,6 +19,9 @@ REACTION_S = 0.1
 YAW_SETTLE_S = 0.1
 """Time in which a robot takes up the yaw rate of the next piece where the curvature jumps [s]."""
 
+LIMITS = (1e-12, 1e12)
+"""The least and the greatest limit along a path, in its own unit: none of any robot lies beyond."""
+
 _ALONG = (
     "max_speed",
     "max_accel",
@@ -56,8 +59,8 @@ class Limits:
             are limits along and across a body that keeps this heading.
 
     Raises:
-        GeometryError: When a limit is not a finite number above 0, or a steering rate has no
-            wheelbase.
+        GeometryError: When a limit is not a finite number above 0, or one that no robot has; or a
+            steering rate has no wheelbase.
 
     Example:
         >>> Limits(max_speed=2.0, max_accel=1.0, axis_accel=[0.5, 0.7]).axis_accel
@@ -84,6 +87,10 @@ class Limits:
                 value = number_from(name, value)
             if value is not None and not 0 < value < math.inf:
                 raise GeometryError(f"{name} is {value}; give a finite number above 0")
+            if value is not None and not LIMITS[0] <= value <= LIMITS[1]:
+                raise GeometryError(
+                    f"{name} is {value:g}; give a number from {LIMITS[0]:g} to {LIMITS[1]:g}"
+                )
             if value is not None:
                 object.__setattr__(self, name, float(value))
         if self.max_steer_rate is not None and self.wheelbase is None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,7 @@ class LapsAhead:
     unseen: float
     timed: float = math.inf
     kept: float = 0.0
-    given_up: Mapping[int, tuple[int, str]] = field(default_factory=lambda: MappingProxyType({}))
+    given_up: Mapping[int, tuple[int, str]] = field(default_factory=dict)
 
     def is_goal(self, index: int) -> bool:
         """Whether a point of the route, by its index, is in the place where the drive ends."""
@@ -42,7 +41,7 @@ class LapsAhead:
     def without(self, skipped: Mapping[int, str]) -> LapsAhead:
         """The laps without points that are given up from now on: their indices, and why."""
         lost = {index % self.round: (index, why) for index, why in skipped.items()}
-        return replace(self, given_up=MappingProxyType({**self.given_up, **lost}))
+        return replace(self, given_up={**self.given_up, **lost})
 
     def newly_missed(self, after: int, before: int) -> tuple[tuple[int, str], ...]:
         """Points between two of the route that were given up in an earlier lap, and why."""

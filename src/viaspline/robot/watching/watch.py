@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
 from typing import NamedTuple
 
 from viaspline.robot.state import RobotState
@@ -88,20 +87,18 @@ class Watch:
     behind: float = 0.0
     excuse: Excuse | None = None
     renewals: int = 0
-    told: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    told: Mapping[str, float] = field(default_factory=dict)
     held: str | None = None
 
     def having_told(self, what: str, figure: float = 0.0) -> Watch:
         """It when something was told of, with its figure."""
-        return replace(self, told=MappingProxyType({**self.told, what: figure}))
+        return replace(self, told={**self.told, what: figure})
 
     def without_telling(self, what: str) -> Watch:
         """It when something is over, so that it is told of when it comes again."""
         if what not in self.told:
             return self
-        return replace(
-            self, told=MappingProxyType({k: v for k, v in self.told.items() if k != what})
-        )
+        return replace(self, told={k: v for k, v in self.told.items() if k != what})
 
     def having_given(self, time: float, speed: float, remembered: float) -> Watch:
         """It when a command was given.
