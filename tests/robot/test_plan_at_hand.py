@@ -39,6 +39,16 @@ def test_a_plan_that_chose_the_order_is_its_missions() -> None:
     assert vs.simulate(asked, plan=made).reached
 
 
+def test_a_corridor_runs_along_the_order_that_the_plan_chose() -> None:
+    """It is beside the lines through the points: those in the order that was asked cross it."""
+    lanes = [[20, 0], [0, 6], [20, 6], [0, 12], [0, 3], [20, 12], [20, 3]]
+    route = {"start": [0, 0], "via": lanes, "closed": True, "order": "shortest",
+             "corridor": {"left_m": 1.5, "right_m": 1.5}}  # fmt: skip
+    run = vs.simulate(mission(route))
+    assert run.reached, run.reason
+    assert run.certificate.holds
+
+
 def test_what_stands_in_the_way_unseen_may_be_new() -> None:
     made = vs.plan(mission(ROUTE, sensor={"range_m": 6}))
     crate = {"circle": {"center": [5, 5], "radius": 0.5}}

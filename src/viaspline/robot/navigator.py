@@ -141,8 +141,9 @@ class Navigator:
         warm_up(mission, progress, warm)
         limits = limits_of(mission.robot, reaction)
         plan = plan_mission(mission) if plan is None else plan
-        # with the tension that was advised
-        mission = mission.model_copy(update={"spline": plan.mission.spline})
+        # with the order and the tension that were chosen: a corridor follows the order
+        chosen = {"spline": plan.mission.spline, "route": plan.mission.route}
+        mission = mission.model_copy(update=chosen)
         model = drive_model_of(mission.robot, period) if is_driven(mission.robot) else None
         requirements = requirements_under_way(mission, plan.tracking_error)
         if mission.robot.footprint is not None and mission.robot.sensor is not None:

@@ -100,8 +100,8 @@ def simulate(
     check_callable("watch", watch, "give a function of a step")
     if progress is not None:
         check_callable("progress", progress, "give a function of a time and two lengths")
-    world = World.everything(mission)
     nav = Navigator(mission, plan, reaction=longest_step(step), period=step, warm=False)
+    world = World.everything(nav.mission)
     limit = MAX_DURATION_RATIO * nav.plan.trajectory.duration + MAX_DELAY_S
 
     def tell(time: float, nav: Navigator) -> None:
