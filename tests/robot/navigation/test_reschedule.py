@@ -16,6 +16,7 @@ from viaspline.robot.navigation.reschedule import braking_at_once
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.perception.range_sensor import RangeSensor
+from viaspline.robot.simulator import simulate
 from viaspline.robot.state import RobotState
 
 Make = Callable[..., Mission]
@@ -131,3 +132,17 @@ def test_a_stop_that_just_does_ends_where_the_path_ends_whatever_the_rounding_sa
         now = replace(state.progress, time=3.0, distance=length - left)
         law = braking_at_once(task, now, state.schedule, speed)
         assert length - 1e-9 < float(law.distances[-1]) <= length
+
+
+@pytest.mark.parametrize("goal", [(14, 1), (18, 5)])
+def test_a_drive_that_is_timed_in_parts_stops_at_its_goal(goal: tuple[float, float]) -> None:
+    """In the last centimetre, too, where it is measured before or behind its time law."""
+    robot = {
+        "max_speed_mps": 5, "max_accel_mps2": 2, "max_yaw_accel_degps2": 60,
+        "drive": {"ackermann": {"wheelbase_m": 0.864, "max_steer_deg": 45}, "delay_s": 0.05},
+        "tracking_error_m": 0.1,
+    }  # fmt: skip
+    route = {"start": [0, 0], "via": [[7, 6]], "goal": list(goal)}
+    run = simulate(Mission.model_validate({"robot": robot, "route": route}))
+    assert run.reached, run.reason
+    assert math.dist(run.positions[-1], goal) < 0.05

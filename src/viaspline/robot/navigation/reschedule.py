@@ -68,7 +68,8 @@ def rescheduled(
     """The schedule with a trajectory that begins here and now, at this speed [m/s].
 
     It ends, at rest, where the robot is not certain to be free any more. Where the robot can't
-    stop in time, because what was certain is not so now, it brakes as hard as it can.
+    stop in time, because what was certain is not so now, or because a drive is faster than its
+    law, it brakes as hard as it can.
     """
     path, turns, probed = schedule.path, schedule.turns, schedule.probed_until
     try:
@@ -77,7 +78,7 @@ def rescheduled(
         )
     except GeometryError:
         certain = knowledge.belief is None and schedule.held_at >= path.length
-        if certain and not len(knowledge.moving):
+        if certain and not len(knowledge.moving) and task.model is None:
             raise
         trajectory = braking_at_once(task, progress, schedule, speed)
     return replace(schedule, trajectory=trajectory, timed_at=progress.time)
@@ -246,7 +247,7 @@ def _timed(
     (distance, end), (speed, accel) = part, motion
     zones = task.mission.world.speed_zones
     if is_in_parts(task.limits, path):
-        if end - distance < LEAST_PART_M:
+        if end - distance < (LEAST_PART_M if end < path.length else SAME_PLACE_M):
             if speed > 0.0:
                 raise GeometryError(f"the robot can't stop within {end - distance:g} m")
             return braking(distance, 0.0, task.limits.brake, time)
