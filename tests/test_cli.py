@@ -136,6 +136,13 @@ def test_quiet_says_nothing(clear: Path, tmp_path: Path) -> None:
     assert run["mission"]["seed"] == 7
 
 
+def test_a_seed_below_0_is_refused_before_anything_is_planned(clear: Path, tmp_path: Path) -> None:
+    result = call("run", clear, "--out", tmp_path / "out", "--seed", -1)
+    assert result.exit_code == 2
+    assert "-1 is not in the range x>=0" in result.stderr
+    assert not (tmp_path / "out").exists()
+
+
 def test_no_path_is_explained_and_leaves_no_folder(tmp_path: Path) -> None:
     file = tmp_path / "walled.yaml"
     file.write_text(WALLED)

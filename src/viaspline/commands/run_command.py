@@ -26,7 +26,14 @@ from viaspline.commands.fleet_options import (
 @IMPROVE
 @WORKERS
 @SCHEDULER
-@click.option("--seed", type=int, default=0, show_default=True, help="Of what is random.")
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    metavar="N",
+    default=0,
+    show_default=True,
+    help="Of what is random.",
+)
 @click.option(
     "--animate", type=click.Path(path_type=Path), metavar="FILE", help="A .gif or .mp4 of the run."
 )
