@@ -19,7 +19,7 @@ from viaspline.report import style
 from viaspline.report.canvas import new_figure, renderer_of
 from viaspline.report.driven_line import DrivenKey, draw_driven, sharpest_driven, speed_colours
 from viaspline.report.labels import Labels
-from viaspline.report.plan_picture import plan_picture, via_ticks
+from viaspline.report.plan_picture import plan_picture, plan_scene, via_ticks
 from viaspline.report.profile_strips import mark_clipped, shown_range
 from viaspline.report.run_picture import echoes, run_picture
 from viaspline.robot.run import Run
@@ -63,6 +63,18 @@ def test_pictures_change_no_global_setting(planned: Plan) -> None:
     before = dict(mpl.rcParams)
     plan_picture(planned, "yard")
     assert dict(mpl.rcParams) == before
+
+
+def test_a_long_body_is_on_the_picture_as_a_whole() -> None:
+    mission = Mission.model_validate(
+        {
+            "robot": {"footprint": [[-4, -0.5], [4, -0.5], [4, 0.5], [-4, 0.5]]},
+            "route": {"start": [0, 0], "goal": [3, 0]},
+        }
+    )
+    _, (x_min, _, x_max, _) = plan_scene(plan(mission))
+    assert x_min < -4
+    assert x_max > 7
 
 
 def test_a_closed_route_ends_where_it_starts() -> None:

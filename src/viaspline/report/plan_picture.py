@@ -85,7 +85,8 @@ def plan_scene(plan: Plan) -> tuple[Scene, Box]:
     required = Requirements.of(plan.mission, plan.tracking_error).required
     scene = Scene.of(plan.world, required)
     seen = np.vstack([polyline(plan.path.spans), *losing(plan)])
-    return scene, view_of(seen, scene.corners, scene.box, required)
+    margin = max(required, plan.mission.robot.outer_radius)
+    return scene, view_of(seen, scene.corners, scene.box, margin)
 
 
 def draw_plan_map(sheet: Sheet, scene: Scene, plan: Plan) -> list[Artist]:

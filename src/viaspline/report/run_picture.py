@@ -25,6 +25,7 @@ from viaspline.report.moving_marks import Moment, draw_moving
 from viaspline.report.path_marks import draw_arrows, draw_echoes, draw_tightest, mark_sharpest
 from viaspline.report.plan_picture import proof, subtitle, via_ticks
 from viaspline.report.profile_strips import fill_strips, mark_clipped, strip_names
+from viaspline.report.replan_marks import draw_replans
 from viaspline.report.scene import Scene, nearest_on
 from viaspline.report.sheet import Box, Sheet, new_sheet, view_of
 from viaspline.report.side_column import SideColumn
@@ -79,8 +80,9 @@ def run_scene(run: Run) -> tuple[Scene, Box]:
     mission = run.plan.mission
     required = Requirements.of(mission, run.plan.tracking_error).required
     scene = Scene.of(run.plan.world, required, mission.world.unseen_standing)
+    margin = max(required, mission.robot.outer_radius)
     seen = np.vstack([polyline(run.plan.path.spans), run.positions[:, :2]])
-    return scene, view_of(seen, scene.corners, scene.box, required)
+    return scene, view_of(seen, scene.corners, scene.box, margin)
 
 
 def draw_run_map(sheet: Sheet, scene: Scene, run: Run) -> list[Artist]:
@@ -234,21 +236,7 @@ def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
         else:
             at = event.at[0], event.at[1]
             labels.add(f"{words}, {event.time:.0f} s", at, rank=2, colour=style.UNSEEN)
-    size = 4.0 if has_lidar(run) else 6.0
-    for replan in run.replans:
-        (handles["replanned"],) = sheet.map.plot(
-            *replan.at[:2], marker="D", markersize=size, markerfacecolor="white",
-            markeredgecolor=style.UNSEEN, markeredgewidth=0.23 * size, linestyle="none",
-            zorder=10 if has_lidar(run) else 14.5,
-            label="new path from here",
-        )  # fmt: skip
-        if has_lidar(run):  # they are many; the column tells them
-            continue
-        labels.add(
-            f"new path, {replan.time:.0f} s ({replan.mode.replace('_', ' ')})",
-            (replan.at[0], replan.at[1]), rank=4, colour=style.UNSEEN,
-        )  # fmt: skip
-    return [*handles.values()]
+    return [*handles.values(), *draw_replans(sheet.map, labels, run, many=has_lidar(run))]
 
 
 def _draw_sight(sheet: Sheet, run: Run, event: Event) -> None:
