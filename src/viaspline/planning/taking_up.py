@@ -27,7 +27,7 @@ from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.stretch import Stretch
 from viaspline.planning.way_ahead import WayAhead
 
-LITTLE = 2e-2
+LITTLE = 1e-2
 """Part of its time that a path may lose to slow turns, or of its length by which it may be longer
 than the old one, without that another is looked for."""
 
@@ -35,7 +35,7 @@ WORK_S = 0.012
 """What may be spent on a better one [s of the reference machine]: several times what it takes where
 nothing but a disc has to get through."""
 
-LEFT_S = 2.0 * WORK_S
+LEFT_S = 1.5 * WORK_S
 """It isn't sought where less is left: a path that was found has to be proven and timed, too."""
 
 
