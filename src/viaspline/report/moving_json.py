@@ -9,8 +9,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from viaspline.planner import Plan
-from viaspline.robot.run import Run
 from viaspline.spacetime.timed_drive import TimedCandidate
+from viaspline.tracks.encountered import Encounters
 from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.yielding.waits import TrafficWait
 
@@ -85,9 +85,8 @@ def _candidate(one: TimedCandidate) -> dict[str, Any]:
     }
 
 
-def encounters_data(run: Run) -> dict[str, Any]:
+def encounters_data(met: Encounters | None) -> dict[str, Any]:
     """How near the drive came to what moves, and every contact; nothing where nothing moved."""
-    met = run.encounters
     if met is None:
         return {}
     return {

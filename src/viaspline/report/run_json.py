@@ -33,7 +33,7 @@ def run_json(run: Run, name: str, *, seed: int = 0) -> str:
             "tightest_at": certificate.tightest_at,
             "tightest_distance_m": certificate.tightest_distance,
             "nearest": certificate.obstacle,
-            **encounters_data(run),
+            **encounters_data(run.encounters),
             "nearer_than_asked": [_shortfall(shortfall) for shortfall in run.shortfalls],
             "vias": [
                 {

@@ -9,12 +9,13 @@ import pytest
 
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.lidar import Scan
-from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
 from viaspline.robot.perception.moving.moved_away import Glimpse
 from viaspline.robot.perception.moving.object_track import ObjectTrack
 from viaspline.robot.perception.moving.track_sightings import TrackedSightings
-from viaspline.robot.yielding.foreseen import HORIZON_S, foreseen
+from viaspline.robot.yielding.foreseen import foreseen
+from viaspline.tracks.motion_estimate import MotionEstimate
+from viaspline.tracks.straight_on import HORIZON_S
 
 DISC = Obstacle.model_validate({"name": "cart", "circle": {"center": (0, 0), "radius": 1.0}})
 

@@ -1,6 +1,6 @@
 """Whether what touched a robot could be known of while there was still time to brake for it.
 
-Tested through ``robot/simulation/test_encounters``.
+Tested through ``tracks/test_encounters``.
 """
 
 from __future__ import annotations

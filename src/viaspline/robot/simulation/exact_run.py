@@ -12,11 +12,11 @@ from viaspline.kernels.arrays import Floats
 from viaspline.robot.run import Event, Run
 from viaspline.robot.simulation.appearance import Appearance
 from viaspline.robot.simulation.driven_motion import DrivenMotion
-from viaspline.robot.simulation.encounters import DrivenStates, encounters, touched_by
 from viaspline.robot.simulation.exact_drive import ExactDrive
 from viaspline.robot.simulation.machine_run import proven
 from viaspline.robot.simulation.near_misses import near_misses
 from viaspline.robot.simulation.outcome import outcome
+from viaspline.tracks.encounters import DrivenStates, encounters, touched_by
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
@@ -50,7 +50,9 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
     met = None
     if len(moving):
         appearance = Appearance(nav.mission, world, moving, motion)
-        met = encounters(_states(drive, path), robot, moving, appearance.was_late)
+        met = encounters(
+            _states(drive, path), robot, robot.outer_radius, moving, appearance.was_late
+        )
     reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,

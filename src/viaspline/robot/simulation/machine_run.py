@@ -21,10 +21,10 @@ from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Run, Visit
 from viaspline.robot.simulation.appearance import Appearance
 from viaspline.robot.simulation.driven_motion import DrivenMotion
-from viaspline.robot.simulation.encounters import DrivenStates, encounters, touched_by
 from viaspline.robot.simulation.machine_drive import MachineDrive
 from viaspline.robot.simulation.near_misses import near_misses
 from viaspline.robot.simulation.outcome import outcome
+from viaspline.tracks.encounters import DrivenStates, encounters, touched_by
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
@@ -63,7 +63,9 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     met = None
     if len(moving):
         appearance = Appearance(nav.mission, world, moving, motion)
-        met = encounters(_states(drive, travel.speeds), robot, moving, appearance.was_late)
+        met = encounters(
+            _states(drive, travel.speeds), robot, robot.outer_radius, moving, appearance.was_late
+        )
     reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,

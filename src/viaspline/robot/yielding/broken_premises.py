@@ -5,7 +5,6 @@ Tested through ``robot/yielding/test_broken_premises``.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from viaspline.robot.navigation.drive_task import DriveTask
@@ -15,9 +14,7 @@ from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.perception.moving.object_track import ObjectTrack
 from viaspline.robot.perception.moving.track_sightings import SightedTrack
 from viaspline.robot.run import Event
-
-SIGMAS = 3.0
-"""Something is too fast if it is even with an error of so many standard deviations."""
+from viaspline.tracks.premise import is_faster, jumped_words, too_fast_words
 
 
 def broken_premises(
@@ -38,16 +35,15 @@ def broken_premises(
     if premise is None:
         return ()
     top, here = premise.max_speed_mps, schedule.place(progress.distance)
-    fast = {key for key, track in _tracks(before) if _is_faster(track, top)}
+    fast = {key for key, track in _tracks(before) if is_faster(track.estimate, top)}
     found = []
     for key, track in _tracks(now):
         name, data = key[1], {"name": key[1]}
         if isinstance(track, SightedTrack) and track.jumped:
-            words = f"the premise is broken: '{name}' jumped"
+            words = jumped_words(name)
             found.append(Event("premise", progress.time, here, words, data))
-        if _is_faster(track, top) and key not in fast:
-            speed = math.hypot(*track.estimate.velocity.tolist())
-            words = f"the premise is broken: '{name}' goes {speed:.2f} m/s, and not {top:g} at most"
+        if is_faster(track.estimate, top) and key not in fast:
+            words = too_fast_words(name, track.estimate, top)
             found.append(Event("premise", progress.time, here, words, data))
     return tuple(found)
 
@@ -59,9 +55,3 @@ def _tracks(known: Knowledge) -> Iterator[tuple[tuple[int, str], ObjectTrack | S
         yield (seen.index, seen.obstacle.name or f"moving obstacle {seen.index + 1}"), sighted
     for track in known.hits.tracks if known.hits is not None else ():
         yield (track.number, f"moving thing {track.number}"), track
-
-
-def _is_faster(track: ObjectTrack | SightedTrack, top: float) -> bool:
-    estimate = track.estimate
-    speed = math.hypot(*estimate.velocity.tolist())
-    return speed - SIGMAS * estimate.velocity_error > top

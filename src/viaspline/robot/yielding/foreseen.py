@@ -16,23 +16,12 @@ from collections.abc import Iterable
 from viaspline.mission.motion_spec import Motion, MotionError
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.moving.foretell import as_obstacle, reckoned_motion
-from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
 from viaspline.robot.perception.moving.object_track import ObjectTrack
-from viaspline.robot.perception.moving.track_sightings import STOOD_M, SightedTrack
+from viaspline.robot.perception.moving.track_sightings import SightedTrack
+from viaspline.tracks.followed import STOOD_M
+from viaspline.tracks.motion_estimate import MotionEstimate
+from viaspline.tracks.straight_on import SIGMAS, straight_on
 from viaspline.world.moving_obstacles import MovingObstacles
-
-HORIZON_S = 8.0
-"""So far ahead it is taken to go straight on [s]."""
-
-LEAST_HORIZON_S = 1.0
-"""It is so for so long at least [s]:"""
-
-WIDEST_M = 1.5
-"""else until it may be so far from there [m]."""
-
-SIGMAS = 1.0
-"""Standard deviations by which it may be elsewhere, or faster. With two, a robot that a lidar shows
-things to was led round half of the traffic, which took twice as long."""
 
 
 def foreseen(tracks: Iterable[ObjectTrack | SightedTrack], now: float) -> MovingObstacles:
@@ -50,10 +39,7 @@ def _foreseen(track: ObjectTrack | SightedTrack, now: float) -> Obstacle:
     if isinstance(track, SightedTrack) and track.stays:
         return as_obstacle(track, _standing(estimate, now))
     (x, y), (vx, vy) = estimate.place.tolist(), estimate.velocity.tolist()
-    error = MotionError(
-        position_m=SIGMAS * estimate.place_error, growth_mps=SIGMAS * estimate.velocity_error
-    )
-    ahead = _horizon(error)
+    error, ahead = straight_on(estimate)
     frames = ((now, x, y), (now + ahead, x + vx * ahead, y + vy * ahead))
     return as_obstacle(track, reckoned_motion(error, frames, after="vanish", before="absent"))
 
@@ -63,15 +49,3 @@ def _standing(estimate: MotionEstimate, now: float) -> Motion:
     x, y = estimate.place.tolist()
     error = MotionError(position_m=max(SIGMAS * estimate.place_error, STOOD_M))
     return reckoned_motion(error, ((now, x, y),), after="stay")
-
-
-def _horizon(error: MotionError) -> float:
-    """How long something is taken to go straight on [s].
-
-    >>> _horizon(MotionError(position_m=0.1, growth_mps=0.7))
-    2.0
-    """
-    spare = WIDEST_M - error.position_m
-    if spare >= HORIZON_S * error.growth_mps:
-        return HORIZON_S
-    return max(spare / error.growth_mps, LEAST_HORIZON_S)

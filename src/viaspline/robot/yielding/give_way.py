@@ -28,23 +28,9 @@ from viaspline.robot.yielding.meeting_ahead import meeting_ahead
 from viaspline.robot.yielding.out_of_the_way import out_of_the_way
 from viaspline.robot.yielding.swerves import swerves
 from viaspline.robot.yielding.ways_past import Way, try_ways, ways_past
+from viaspline.tracks.patience import APART_M, FREE_S, GAIN_S, PATIENCE_S, RETRY_S
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
-
-APART_M = (0.3, 0.0)
-"""What it keeps to what moves beyond what is required [m], the most that can be: that may turn."""
-
-RETRY_S = 0.3
-"""A robot that gives way looks so often for something better [s]."""
-
-PATIENCE_S = 1.0
-"""It waits so much longer than it would drive before it looks at other sides [s]."""
-
-GAIN_S = 0.5
-"""Another side has to be so much sooner than waiting [s]."""
-
-FREE_S = 0.05
-"""Who comes no later than this doesn't give way [s]."""
 
 
 def give_way(

@@ -15,14 +15,11 @@ from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import HeldUp, Schedule
 from viaspline.robot.yielding.held_up_by import held_up_by
+from viaspline.tracks.patience import MAX_HELD_UP_S, MAX_PAUSE_S, PAUSE_SHARE
 from viaspline.trajectory.retime import braking
 
-MAX_HELD_UP_S = 60.0
-"""It gives up that has stood so long without a way on [s]."""
-
-LEAST_PAUSE_S, MAX_PAUSE_S, PAUSE_SHARE = 0.3, 2.0, 0.1
-"""From one look to the next: a share of how long it has stood, not less and not more than this
-[s]."""
+LEAST_PAUSE_S = 0.3
+"""From one look to the next, at least [s]."""
 
 ALERT_S = 5.0
 """Where something moves it looks in every step for so long [s], and then after the least pause."""

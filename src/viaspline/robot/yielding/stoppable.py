@@ -19,13 +19,15 @@ from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import rescheduled
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.perception.lidar import Scan
-from viaspline.robot.perception.moving.foretell import Foresight, foretold
+from viaspline.robot.perception.moving.foretell import foretold
 from viaspline.robot.perception.moving.mouths import reach_and_mouths
 from viaspline.robot.perception.perceive import Sighting
 from viaspline.robot.replanning.deadline import STANDING_WORK_S
 from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
 from viaspline.robot.yielding.held_up import rests
+from viaspline.tracks.foresight import Foresight
+from viaspline.tracks.patience import FROZEN, MAX_FROZEN_S
 from viaspline.trajectory.passive_safety import (
     SAME_PLACE_M,
     PassivePremises,
@@ -45,15 +47,6 @@ NARROWEST_M = 0.2
 
 PIECE_S = 0.02
 """A law with a limit of the jerk is taken in pieces of even acceleration, so long [s]."""
-
-MAX_FROZEN_S = 60.0
-"""A robot gives up that has stood so long without a step that is proven to be safe [s],"""
-
-FROZEN = (
-    f"for {MAX_FROZEN_S:g} s no step of it was proven safe from what moves there, or may come out "
-    "of what it doesn't see; moving.max_speed_mps says how fast that may be"
-)
-"""and says why."""
 
 ANY_ACCEL_MPS2 = 1e6
 """What moves may turn at will: nothing is taken for granted but its greatest speed."""

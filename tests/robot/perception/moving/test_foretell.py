@@ -11,10 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.robot.perception.moving.foretell import Foresight, foretold
-from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
+from viaspline.robot.perception.moving.foretell import foretold
 from viaspline.robot.perception.moving.motion_sensor import MotionSensor
 from viaspline.robot.perception.moving.track_sightings import TrackedSightings
+from viaspline.tracks.foresight import Foresight
+from viaspline.tracks.motion_estimate import MotionEstimate
 from viaspline.world.moving_obstacles import MovingObstacles
 
 SHAPES = (

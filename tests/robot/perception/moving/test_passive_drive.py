@@ -15,12 +15,13 @@ from viaspline.curve.path import Path
 from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.lidar import LidarSensor
-from viaspline.robot.perception.moving.foretell import Foresight, foretold
+from viaspline.robot.perception.moving.foretell import foretold
 from viaspline.robot.perception.moving.motion_sensor import MotionSensor
 from viaspline.robot.perception.moving.mouths import reach_and_mouths
 from viaspline.robot.perception.moving.track_hits import TrackedHits
 from viaspline.robot.perception.moving.track_sightings import TrackedSightings
 from viaspline.robot.perception.moving.tracking_premises import TrackingPremises
+from viaspline.tracks.foresight import Foresight
 from viaspline.trajectory.limits import Limits
 from viaspline.trajectory.passive_safety import PassivePremises, passive_law, stop_of
 from viaspline.trajectory.retime import braking, retime

@@ -15,12 +15,9 @@ from viaspline.kernels.motion.moving_rates import rates_at
 from viaspline.kernels.world.distance import obstacle_distances
 from viaspline.mission.fields import MAX_LENGTH_M, SPEEDS_MPS
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.robot.perception.lidar import MAX_NOISE_SIGMAS
+from viaspline.tracks.told_velocities import told_velocities
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.shapes_at import shapes_at
-
-ROUNDING = 1e-9
-"""Part of a speed."""
 
 
 @dataclass(frozen=True)
@@ -116,13 +113,13 @@ class MotionSensor:
         frames, rates = self.moving.frames(time), rates_at(self.moving.packed, float(time))
         point = np.asarray(position, np.float64)[None, :2]
         near = self._in_range(frames, np.ascontiguousarray(point), time)
-        noise = self._noise(len(frames), number)
+        told = told_velocities(rates[:, :2], self.velocity_noise, self.seed, number)
         return tuple(
             MovingSighting(
                 i,
                 self.moving.obstacles[i],
                 (float(frames[i, 0]), float(frames[i, 1]), float(frames[i, 2])),
-                _told(rates[i, :2] + noise[i]),
+                (told[i][0], told[i][1]),
             )
             for i in near
         )
@@ -135,16 +132,3 @@ class MotionSensor:
             return maybe
         shapes = shapes_at(self.moving, time)
         return [i for i in maybe if obstacle_distances(shapes, i, point)[0] <= self.range]
-
-    def _noise(self, count: int, number: int) -> Floats:
-        """Errors of velocities [m/s], (count, 2)."""
-        drawn = np.random.default_rng((self.seed, number)).standard_normal((count, 2))
-        cut: Floats = np.clip(drawn, -MAX_NOISE_SIGMAS, MAX_NOISE_SIGMAS)
-        return self.velocity_noise * cut
-
-
-def _told(velocity: Floats) -> tuple[float, float]:
-    """A velocity as it is told [m/s]: never more than anything has."""
-    too_fast = max(math.hypot(*velocity.tolist()) / (SPEEDS_MPS[1] * (1.0 - ROUNDING)), 1.0)
-    vx, vy = (velocity / too_fast).tolist()
-    return vx, vy

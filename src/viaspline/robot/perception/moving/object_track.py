@@ -15,9 +15,9 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.hit_clusters import HitCluster
-from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
 from viaspline.robot.perception.moving.moved_away import Glimpse, has_come, has_moved
 from viaspline.robot.perception.moving.tracking_premises import TrackingPremises
+from viaspline.tracks.motion_estimate import MotionEstimate
 
 SIGNIFICANT: Final = 5.99
 """Squared Mahalanobis distance from rest that one velocity of twenty has by chance."""

@@ -10,55 +10,12 @@ from typing import Final
 import numpy as np
 
 from viaspline.errors import GeometryError
-from viaspline.kernels.arrays import Floats
-from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
-
-PLACE_ERROR_M: Final = 1e-3
-"""A place that is measured exactly, for a filter that divides by its error [m]."""
-
-VELOCITY_ERROR_MPS: Final = 1e-3
-"""A velocity that is [m/s]."""
+from viaspline.tracks.followed import Standstill, followed
+from viaspline.tracks.motion_estimate import MotionEstimate
 
 SAME_HEADING_RAD: Final = 1e-9
 """Something turns that has another heading in the next look [rad]."""
-
-JUMP_RATIO: Final = 2.0
-"""What has gone so many times as far as it would by its speed now and before has jumped,"""
-
-JUMP_SIGMAS: Final = 6.0
-"""though the speeds may be wrong by so many standard deviations,"""
-
-JUMP_M: Final = 0.1
-"""and by no less than this [m]."""
-
-STOOD_M: Final = 0.02
-"""What has gone no farther than this stands [m],"""
-
-STOOD_RAD: Final = 0.02
-"""if it has turned no more than this either [rad];"""
-
-STOOD_S: Final = 2.0
-"""it is taken to stay when it has stood for so long [s]."""
-
-
-@dataclass(frozen=True)
-class Standstill:
-    """Since when something has been where it is.
-
-    Attributes:
-        since: [s].
-        frame: Where that is: x, y [m], heading [rad].
-    """
-
-    since: float
-    frame: tuple[float, float, float]
-
-    def going_on(self, frame: tuple[float, float, float], time: float) -> Standstill:
-        """It after one more look, at a time [s]: the old one if the thing is still there."""
-        near = math.dist(frame[:2], self.frame[:2]) <= STOOD_M
-        is_there = near and abs(frame[2] - self.frame[2]) <= STOOD_RAD
-        return self if is_there else Standstill(time, frame)
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +39,7 @@ class SightedTrack:
     @property
     def stays(self) -> bool:
         """Whether it has stood for so long that it is taken to stay."""
-        return self.estimate.time - self.still.since >= STOOD_S
+        return self.still.stays(self.estimate.time)
 
     @property
     def reach(self) -> float:
@@ -132,30 +89,13 @@ class TrackedSightings:
     def _seen(
         self, before: SightedTrack | None, sighting: MovingSighting, time: float
     ) -> SightedTrack:
-        error = max(self.velocity_noise, VELOCITY_ERROR_MPS)
         measured = np.array((*sighting.frame[:2], *sighting.velocity))
-        jumped = before is not None and _has_jumped(before.estimate, measured, time, error)
+        known = None if before is None else before.estimate
+        estimate, jumped = followed(known, measured, time, self.velocity_noise, self.wander)
+        place, heading = sighting.frame[:2], sighting.frame[2]
         if before is None or jumped:
-            variances = np.array((PLACE_ERROR_M, PLACE_ERROR_M, error, error)) ** 2
-            estimate = MotionEstimate(time, measured, np.diag(variances))
-            still = Standstill(time, sighting.frame)
+            still = Standstill(time, place, heading)
             return SightedTrack(sighting, estimate, still, turns=True, jumped=jumped)
-        estimate = before.estimate.foreseen(time, self.wander)
-        estimate = estimate.with_place_and_velocity(measured, PLACE_ERROR_M, error)
-        turned = abs(sighting.frame[2] - before.sighting.frame[2]) > SAME_HEADING_RAD
-        still = before.still.going_on(sighting.frame, time)
+        turned = abs(heading - before.sighting.frame[2]) > SAME_HEADING_RAD
+        still = before.still.going_on(place, heading, time)
         return SightedTrack(sighting, estimate, still, turned)
-
-
-def _has_jumped(before: MotionEstimate, measured: Floats, time: float, error: float) -> bool:
-    """Whether something is farther from where it was than it can have gone.
-
-    Args:
-        before: What was believed of it at the look before.
-        measured: x, y [m], vx, vy [m/s] now, shape (4,).
-        time: [s].
-        error: Standard deviation of a velocity [m/s].
-    """
-    gone = math.dist(measured[:2], before.place)
-    speed = max(math.hypot(*measured[2:].tolist()), math.hypot(*before.velocity.tolist()))
-    return gone > JUMP_RATIO * (speed + JUMP_SIGMAS * error) * (time - before.time) + JUMP_M

@@ -14,9 +14,6 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 
-PLACE = np.eye(2, 4)
-"""What of a state a measured place shows, (2, 4)."""
-
 
 @dataclass(frozen=True, eq=False)
 class MotionEstimate:
@@ -24,8 +21,9 @@ class MotionEstimate:
 
     Attributes:
         time: [s].
-        mean: x, y [m], vx, vy [m/s], shape (4,).
-        covariance: Of these, shape (4, 4).
+        mean: A place [m], then a velocity [m/s]: x, y, vx, vy in the plane, x, y, z, vx, vy, vz in
+            space; shape (2d,).
+        covariance: Of these, shape (2d, 2d).
 
     Example:
         >>> first = MotionEstimate.at_first_sight(0.0, (0.0, 0.0), 0.01, 2.0)
@@ -40,48 +38,77 @@ class MotionEstimate:
 
     @classmethod
     def at_first_sight(
-        cls, time: float, place: tuple[float, float], place_error: float, speed_error: float
+        cls, time: float, place: tuple[float, ...], place_error: float, speed_error: float
     ) -> MotionEstimate:
         """Something that was seen once.
 
         Args:
             time: [s].
-            place: Where it was [m].
+            place: Where it was [m], d numbers.
             place_error: Standard deviation of each coordinate of that [m].
             speed_error: Standard deviation of each coordinate of its velocity, about none [m/s].
         """
-        variances = np.array((place_error, place_error, speed_error, speed_error)) ** 2
-        return cls(time, np.array((*place, 0.0, 0.0)), np.diag(variances))
+        mean = np.array((*place, *(0.0 for _ in place)))
+        return cls.measured(time, mean, place_error, speed_error)
+
+    @classmethod
+    def measured(
+        cls, time: float, mean: Floats, place_error: float, velocity_error: float
+    ) -> MotionEstimate:
+        """Something of which place and velocity were measured once.
+
+        Args:
+            time: [s].
+            mean: Place [m] and velocity [m/s], shape (2d,).
+            place_error: Standard deviation of each coordinate of the place [m].
+            velocity_error: Standard deviation of each coordinate of the velocity [m/s].
+        """
+        return cls(time, mean, np.diag(_variances(mean.size // 2, place_error, velocity_error)))
+
+    @property
+    def dimension(self) -> int:
+        """Of the place: 2 or 3."""
+        return self.mean.size // 2
 
     @property
     def place(self) -> Floats:
-        """Where it is [m], shape (2,)."""
-        return self.mean[:2]
+        """Where it is [m], shape (d,)."""
+        return self.mean[: self.dimension]
 
     @property
     def velocity(self) -> Floats:
-        """How fast it goes [m/s], shape (2,)."""
-        return self.mean[2:]
+        """How fast it goes [m/s], shape (d,)."""
+        return self.mean[self.dimension :]
 
     @property
     def place_error(self) -> float:
         """The standard deviation of its place in the direction in which that is largest [m]."""
-        return _largest_deviation(self.covariance[:2, :2])
+        return _largest_deviation(self._of_place)
 
     @property
     def velocity_error(self) -> float:
         """The standard deviation of its velocity where that is largest [m/s]."""
-        return _largest_deviation(self.covariance[2:, 2:])
+        return _largest_deviation(self._of_velocity)
 
     @property
     def significance(self) -> float:
-        """Squared Mahalanobis distance of the velocity from none: chi squared of two if it stands.
+        """Squared Mahalanobis distance of the velocity from none: chi squared of d if it stands.
 
         >>> still = MotionEstimate(0.0, np.array((0.0, 0.0, 0.3, 0.0)), 0.01 * np.eye(4))
         >>> round(still.significance, 6)
         9.0
         """
-        return float(self.velocity @ np.linalg.solve(self.covariance[2:, 2:], self.velocity))
+        return float(self.velocity @ np.linalg.solve(self._of_velocity, self.velocity))
+
+    @property
+    def _of_place(self) -> Floats:
+        """The covariance of the place, (d, d)."""
+        return self.covariance[: self.dimension, : self.dimension]
+
+    @property
+    def _of_velocity(self) -> Floats:
+        """The covariance of the velocity, (d, d)."""
+        return self.covariance[self.dimension :, self.dimension :]
 
     def foreseen(self, time: float, wander: float) -> MotionEstimate:
         """What it will be at a later instant.
@@ -91,21 +118,21 @@ class MotionEstimate:
             wander: By how much each coordinate of its velocity changes in a second, in standard
                 deviations [m/s per square root of s].
         """
-        late = time - self.time
-        step = np.eye(4)
-        step[0, 2] = step[1, 3] = late
-        noise = np.kron([[late**3 / 3.0, late**2 / 2.0], [late**2 / 2.0, late]], np.eye(2))
+        late, d = time - self.time, self.dimension
+        step = np.eye(2 * d) + late * np.eye(2 * d, k=d)
+        noise = np.kron([[late**3 / 3.0, late**2 / 2.0], [late**2 / 2.0, late]], np.eye(d))
         covariance = step @ self.covariance @ step.T + wander**2 * noise
         return MotionEstimate(time, step @ self.mean, covariance)
 
-    def with_place(self, place: tuple[float, float] | Floats, error: float) -> MotionEstimate:
+    def with_place(self, place: tuple[float, ...] | Floats, error: float) -> MotionEstimate:
         """What is believed after its place was measured.
 
         Args:
-            place: [m], shape (2,).
+            place: [m], shape (d,).
             error: Standard deviation of each coordinate of that, above 0 [m].
         """
-        return self._corrected(np.asarray(place), PLACE, error**2 * np.eye(2))
+        d = self.dimension
+        return self._corrected(np.asarray(place), np.eye(d, 2 * d), error**2 * np.eye(d))
 
     def with_place_and_velocity(
         self, measured: Floats, place_error: float, velocity_error: float
@@ -113,25 +140,25 @@ class MotionEstimate:
         """What is believed after its place and its velocity were measured.
 
         Args:
-            measured: x, y [m], vx, vy [m/s], shape (4,).
+            measured: A place [m], then a velocity [m/s], shape (2d,).
             place_error: Standard deviation of each coordinate of the place, above 0 [m].
             velocity_error: Standard deviation of each coordinate of the velocity, above 0 [m/s].
         """
-        variances = np.array((place_error, place_error, velocity_error, velocity_error)) ** 2
-        return self._corrected(measured, np.eye(4), np.diag(variances))
+        variances = _variances(self.dimension, place_error, velocity_error)
+        return self._corrected(measured, np.eye(measured.size), np.diag(variances))
 
     def distance_to(self, place: Floats, error: float) -> tuple[float, float]:
         """How far a measured place is from where it should be.
 
         Args:
-            place: [m], shape (2,).
+            place: [m], shape (d,).
             error: Standard deviation of each coordinate of that [m].
 
         Returns:
             (squared Mahalanobis distance, logarithm of the determinant of what that is measured
             by): the first says whether it may be the same thing, their sum how likely that is.
         """
-        spread = self.covariance[:2, :2] + error**2 * np.eye(2)
+        spread = self._of_place + error**2 * np.eye(self.dimension)
         away = place - self.place
         return float(away @ np.linalg.solve(spread, away)), math.log(np.linalg.det(spread))
 
@@ -139,13 +166,21 @@ class MotionEstimate:
         """After a measurement; by Joseph's form, which leaves no negative variance."""
         spread = shown @ self.covariance @ shown.T + noise
         gain = np.linalg.solve(spread, shown @ self.covariance).T
-        left = np.eye(4) - gain @ shown
+        left = np.eye(self.mean.size) - gain @ shown
         mean = self.mean + gain @ (measured - shown @ self.mean)
         covariance = left @ self.covariance @ left.T + gain @ noise @ gain.T
         return MotionEstimate(self.time, mean, 0.5 * (covariance + covariance.T))
 
 
+def _variances(dimension: int, place_error: float, velocity_error: float) -> Floats:
+    """Of place and velocity, (2d,)."""
+    variances: Floats = np.repeat((place_error, velocity_error), dimension) ** 2
+    return variances
+
+
 def _largest_deviation(covariance: Floats) -> float:
-    """The square root of the greater eigenvalue of a covariance (2, 2)."""
+    """The square root of the greatest eigenvalue of a covariance (d, d)."""
+    if covariance.shape[0] > 2:
+        return math.sqrt(max(float(np.linalg.eigvalsh(covariance)[-1]), 0.0))
     a, b, c = covariance[0, 0], covariance[0, 1], covariance[1, 1]
     return math.sqrt(0.5 * (a + c) + math.hypot(0.5 * (a - c), b))

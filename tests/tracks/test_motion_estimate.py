@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
+from viaspline.tracks.motion_estimate import MotionEstimate
 
 speeds = st.floats(-3, 3)
 

@@ -1,6 +1,6 @@
 """How near a driven robot came to what moves, and what touched it.
 
-Tested through ``robot/simulation/test_encounters``.
+Tested through ``tracks/test_encounters``.
 """
 
 from __future__ import annotations
@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.robot.run import Contact, Encounters, Pass
-from viaspline.world.moving_obstacles import MovingObstacles
+from viaspline.tracks.encountered import Contact, Encounters, Pass
 
 RESOLUTION_S = 1e-3
 """Between two instants that are looked at."""
@@ -32,6 +32,29 @@ WasLate = Callable[[int, float], bool]
 """Of what touched the robot, by its index, and when [s]."""
 
 
+class Movers(Protocol):
+    """Things that move, numbered."""
+
+    @property
+    def top_speed(self) -> float:
+        """Of any of them [m/s]."""
+
+    def __len__(self) -> int:
+        """How many they are."""
+
+    def name(self, index: int) -> str:
+        """What one is called."""
+
+    def alone(self, index: int) -> Movers:
+        """One of them."""
+
+    def nearest(self, places: Floats, times: Floats) -> tuple[Floats, Ints]:
+        """Of places (n, d) at times (n,): distances [m] to the nearest, and its number or -1."""
+
+    def distance(self, places: Floats, times: Floats) -> Floats:
+        """These distances."""
+
+
 @dataclass(frozen=True)
 class DrivenStates:
     """Where a robot was at every time.
@@ -39,7 +62,7 @@ class DrivenStates:
     Attributes:
         begin: When it set off [s].
         end: When it arrived, or was stopped [s].
-        state_at: Its places [m], (n, 2), and its speeds [m/s], (n,), at times [s], (n,).
+        state_at: Its places [m], (n, d), and its speeds [m/s], (n,), at times [s], (n,).
     """
 
     begin: float
@@ -48,7 +71,7 @@ class DrivenStates:
 
 
 def encounters(
-    motion: DrivenStates, robot: RobotSpec, moving: MovingObstacles, was_late: WasLate
+    motion: DrivenStates, robot: RobotSpec, radius: float, moving: Movers, was_late: WasLate
 ) -> Encounters:
     """How near a drive came to what moves.
 
@@ -58,7 +81,9 @@ def encounters(
 
     Args:
         motion: Where the robot was when.
-        robot: Its body.
+        robot: How it brakes.
+        radius: Of the disc or ball that its body is taken for; 0 where distances are to its body as
+            it is [m].
         moving: All that moved, known or not.
         was_late: Whether something could not be seen until the robot couldn't stand in time any
             more before it was touched at a time; see ``Appearance``.
@@ -73,13 +98,13 @@ def encounters(
         part = slice(first, first + AT_ONCE)
         places, speeds[part] = motion.state_at(times[part])
         gaps[part], nearest[part] = moving.nearest(places, times[part])
-    gaps -= robot.outer_radius
+    gaps -= radius
     k = int(gaps.argmin())
     if nearest[k] < 0:
         return Encounters(math.inf, None, None, ())
     apart = 0.5 * step * (float(speeds.max()) + moving.top_speed)
     contacts = _contacts(times, gaps, nearest, speeds, moving, was_late)
-    name, passes = moving.name(int(nearest[k])), _passes(motion, robot, moving)
+    name, passes = moving.name(int(nearest[k])), _passes(motion, robot, radius, moving)
     return Encounters(float(gaps[k]) - apart, float(times[k]), name, contacts, passes)
 
 
@@ -99,7 +124,7 @@ def _contacts(
     gaps: Floats,
     nearest: Ints,
     speeds: Floats,
-    moving: MovingObstacles,
+    moving: Movers,
     was_late: WasLate,
 ) -> tuple[Contact, ...]:
     """Each touch, from its beginning, with how fast the robot was."""
@@ -113,7 +138,9 @@ def _contacts(
     return tuple(found)
 
 
-def _passes(motion: DrivenStates, robot: RobotSpec, moving: MovingObstacles) -> tuple[Pass, ...]:
+def _passes(
+    motion: DrivenStates, robot: RobotSpec, radius: float, moving: Movers
+) -> tuple[Pass, ...]:
     """What came near to the robot, each by where it was nearest."""
     count = max(math.ceil((motion.end - motion.begin) / PASSING_RESOLUTION_S), 1)
     times = np.linspace(motion.begin, motion.end, count + 1)
@@ -123,7 +150,7 @@ def _passes(motion: DrivenStates, robot: RobotSpec, moving: MovingObstacles) -> 
     found = []
     for i in range(len(moving)):
         alone = moving.alone(i)
-        gaps = alone.distance(places, times) - robot.outer_radius
+        gaps = alone.distance(places, times) - radius
         k = int(gaps.argmin())
         least = float(gaps[k]) - half * (float(speeds.max()) + alone.top_speed)
         if least > 0.0 and gaps[k] <= near:

@@ -13,7 +13,7 @@ from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.simulation.appearance import Appearance
 from viaspline.robot.simulation.driven_motion import DrivenMotion
-from viaspline.robot.simulation.encounters import DrivenStates, encounters, touched_by
+from viaspline.tracks.encounters import DrivenStates, encounters, touched_by
 from viaspline.world.moving_obstacles import MovingObstacles
 
 ROBOT = RobotSpec(radius_m=0.5)
@@ -38,7 +38,7 @@ def never(index: int, time: float) -> bool:
 
 
 def test_the_clearance_is_proven_and_near_the_true_one() -> None:
-    met = encounters(straight(2.0, 10.0), ROBOT, cart((0.0, 1.0), (10.0, -8.0)), never)
+    met = encounters(straight(2.0, 10.0), ROBOT, 0.5, cart((0.0, 1.0), (10.0, -8.0)), never)
     times = np.linspace(0.0, 10.0, 1_000_001)
     truth = np.hypot(2.0 * times - 10.0, 8.0 - times).min() - 1.5
     assert truth - 3e-3 < met.clearance <= truth
@@ -48,13 +48,13 @@ def test_the_clearance_is_proven_and_near_the_true_one() -> None:
 
 
 def test_a_touch_under_way_ends_a_drive_in_words_and_one_at_rest_does_not() -> None:
-    moving = encounters(straight(2.0, 10.0), ROBOT, cart((0.0, 1.0), (10.0, -5.0)), never)
+    moving = encounters(straight(2.0, 10.0), ROBOT, 0.5, cart((0.0, 1.0), (10.0, -5.0)), never)
     [contact] = moving.contacts
     assert contact.robot_speed == 2.0
     reason = touched_by(moving)
     assert reason is not None
     assert "the robot touched 'cart'" in reason
-    standing = encounters(straight(0.0, 10.0), ROBOT, cart((1.0, 0.0), (-5.0, 0.0)), never)
+    standing = encounters(straight(0.0, 10.0), ROBOT, 0.5, cart((1.0, 0.0), (-5.0, 0.0)), never)
     [contact] = standing.contacts
     assert contact.time == pytest.approx(3.5, abs=2e-3)
     assert contact.robot_speed == 0.0
@@ -63,7 +63,7 @@ def test_a_touch_under_way_ends_a_drive_in_words_and_one_at_rest_does_not() -> N
 
 def test_where_nothing_moves_nothing_is_met() -> None:
     nothing = MovingObstacles()
-    assert encounters(straight(1.0, 1.0), ROBOT, nothing, never).clearance == math.inf
+    assert encounters(straight(1.0, 1.0), ROBOT, 0.5, nothing, never).clearance == math.inf
 
 
 def test_a_run_past_what_is_known_to_move_keeps_what_its_plan_proves() -> None:
@@ -94,13 +94,13 @@ def test_a_run_past_what_is_known_to_move_keeps_what_its_plan_proves() -> None:
 def test_what_came_near_and_touched_nothing_is_told_with_what_was_left() -> None:
     far = cart((0.0, 1.0), (10.0, -30.0))
     near = cart((0.0, 1.0), (10.0, -8.0))
-    met = encounters(straight(2.0, 10.0), ROBOT, near.and_those(far), never)
+    met = encounters(straight(2.0, 10.0), ROBOT, 0.5, near.and_those(far), never)
     [passed] = met.passes
     times = np.linspace(0.0, 10.0, 1_000_001)
     truth = np.hypot(2.0 * times - 10.0, 8.0 - times).min() - 1.5
     assert truth - 0.03 < passed.clearance <= truth
     assert passed.robot_speed == 2.0
-    touching = encounters(straight(2.0, 10.0), ROBOT, cart((0.0, 1.0), (10.0, -5.0)), never)
+    touching = encounters(straight(2.0, 10.0), ROBOT, 0.5, cart((0.0, 1.0), (10.0, -5.0)), never)
     assert touching.passes == ()
 
 
