@@ -16,6 +16,7 @@ from viaspline.report.summary import map_words
 from viaspline.report.terminal_lines import writing_output
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
 from viaspline.robot.run import MODES, Run, Shortfall
+from viaspline.tracks.encountered import Encounters
 
 Rows = list[tuple[str, str]]  # names, and what they are
 MAX_REASONS = 4  # why a path drives roughly, before the rest is only counted
@@ -182,15 +183,7 @@ def run_rows(run: Run) -> Rows:
         )
     for shortfall in run.shortfalls[:MAX_LIST_LINES]:
         rows.append(("NEARER THAN ASKED", shortfall_words(shortfall)))
-    met = run.encounters
-    if met is not None and met.time is not None:
-        near = f"{down(met.clearance)}, to '{met.obstacle}' at {met.time:.1f} s"
-        rows.append(("to what moves, proven", near))
-        for contact in met.contacts[:MAX_LIST_LINES]:
-            how = "while it stood" if contact.robot_speed == 0.0 else "under way"
-            if contact.appeared_within_braking_time:
-                how += ", too late to be seen in time"
-            rows.append(("CONTACT", f"'{contact.obstacle}' at {contact.time:.1f} s, {how}"))
+    rows += encounter_rows(run.encounters)
     if run.tracking is not None:
         cross = run.tracking.cross
         rows.append(
@@ -280,3 +273,17 @@ def show(*tables: RenderableType) -> None:
         screen = console()
         for table in tables:
             screen.print(table)
+
+
+def encounter_rows(met: Encounters | None) -> Rows:
+    """How near a robot came to what moves, and every contact."""
+    if met is None or met.time is None:
+        return []
+    near = f"{down(met.clearance)}, to '{met.obstacle}' at {met.time:.1f} s"
+    rows: Rows = [("to what moves, proven", near)]
+    for contact in met.contacts[:MAX_LIST_LINES]:
+        how = "while it stood" if contact.robot_speed == 0.0 else "under way"
+        if contact.appeared_within_braking_time:
+            how += ", too late to be seen in time"
+        rows.append(("CONTACT", f"'{contact.obstacle}' at {contact.time:.1f} s, {how}"))
+    return rows

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import ViaPoint
@@ -30,9 +29,6 @@ def spatial_problem_of(mission: Mission) -> SpatialProblem:
     Args:
         mission: It, sound.
 
-    Raises:
-        GeometryError: It asks for something that isn't planned in space.
-
     >>> mission = Mission.model_validate({
     ...     "world": {"ground": {"flat_m": 0}},
     ...     "route": {"start": [0, 0], "takeoff": {"to_agl_m": 10}, "land": {"at": [50, 0]}},
@@ -41,7 +37,6 @@ def spatial_problem_of(mission: Mission) -> SpatialProblem:
     >>> [(via.name, via.at.tolist()) for via in problem.vias]
     [('start', [0.0, 0.0, 10.0]), ('goal', [50.0, 0.0, 10.0])]
     """
-    _refuse_what_is_not_planned(mission)
     robot, route = mission.robot, mission.route
     places = flight_places(mission)
     vias = list(_vias(mission, places))
@@ -61,15 +56,6 @@ def spatial_problem_of(mission: Mission) -> SpatialProblem:
         laps=route.laps if route.closed else 1,
         zones=mission.world.speed_zones,
     )
-
-
-def _refuse_what_is_not_planned(mission: Mission) -> None:
-    """Say what of a mission isn't planned in space, rather than leave it out."""
-    if mission.world.unseen_moving:
-        raise GeometryError(
-            "obstacles that move and aren't on the map aren't flown round in space; put them under "
-            "world.known, or leave out their motion"
-        )
 
 
 def spatial_limits_of(mission: Mission) -> SpatialLimits:

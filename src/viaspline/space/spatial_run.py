@@ -15,6 +15,7 @@ from viaspline.presentable.named_columns import Table, coordinates, named_column
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.tracks.encountered import Encounters
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,10 +49,14 @@ class SpatialRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
         speeds: Along the path [m/s], shape (n,).
         climbs: Upward [m/s], shape (n,).
         replans: Where the path was changed.
-        clearance: Proven free space between the body and everything that there is, seen or not, on
-            all that was flown; while it takes off and lands, the ground doesn't count [m].
+        clearance: Proven free space between the body and everything that stands, seen or not, or
+            moves as the map says, on all that was flown; while it takes off and lands, the ground
+            doesn't count [m].
         reached: Whether it came to its goal.
         reason: Why not; empty if it did.
+        encounters: How near it came to all that moves; None where what moves is on the map, and
+            nothing else is reckoned with.
+        broken_premises: What was seen to be faster than the mission says, or to jump, in words.
     """
 
     plan: SpatialPlan
@@ -64,6 +69,8 @@ class SpatialRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
     clearance: float
     reached: bool
     reason: str = ""
+    encounters: Encounters | None = None
+    broken_premises: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         end = "reached" if self.reached else self.reason

@@ -266,10 +266,12 @@ route:
 
 def test_the_mission_of_the_documentation_is_sound(tmp_path: Path) -> None:
     page = Path(__file__).resolve().parents[3] / "docs" / "space.md"
-    piece, moving = re.findall(r"```yaml\n(.*?)```", page.read_text(), re.DOTALL)
+    piece, moving, sensing = re.findall(r"```yaml\n(.*?)```", page.read_text(), re.DOTALL)
     (tmp_path / "m.yaml").write_text(piece)
     route = {"start": [0, 0, 5], "goal": [9, 0, 5]}
-    among = Mission.model_validate({"world": yaml.safe_load(moving), "route": route})
+    sees = yaml.safe_load(sensing)
+    among = Mission.model_validate({"world": yaml.safe_load(moving), **sees, "route": route})
+    assert among.robot.moving is not None
     assert [one.name for one in among.world.moving] == ["hook", "airship"]
     assert among.is_spatial
     mission = load(tmp_path / "m.yaml")

@@ -18,7 +18,6 @@ _REMEDIES: Final[dict[Path, str]] = {
     ("robot", "min_turn_radius_m"): "leave it out: max_lateral_accel_mps2 says how fast it turns",
     ("robot", "turn_on_spot"): "leave it out: a robot in space turns where it hovers",
     ("robot", "prefer_clearance_m"): "give clearance_m, which is kept everywhere",
-    ("robot", "moving"): "leave it out: motion says what moves",
     ("robot", "sensor", "lidar"): "give sensor: {range_m: 40}",
     ("route", "corridor"): "give gates or via points instead",
     ("route", "detours"): "leave it out",

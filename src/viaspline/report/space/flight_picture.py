@@ -18,7 +18,7 @@ from viaspline.report.labels import Labels
 from viaspline.report.path_marks import draw_arrows
 from viaspline.report.space.elevation_profile import GROUND
 from viaspline.report.space.flown_clearance import flown_clearance
-from viaspline.report.space.moving_in_space import draw_moving_in_space
+from viaspline.report.space.moving_in_space import draw_met_in_space
 from viaspline.report.space.solid_marks import clear_contour_labels, draw_solids
 from viaspline.report.space.space_view import draw_space_of_many
 from viaspline.report.space.spatial_picture import (
@@ -77,6 +77,9 @@ def _heading(run: SpatialRun, name: str) -> tuple[str, tuple[str, ...]]:
     proven = "nothing to keep clear of"
     if np.isfinite(run.clearance):
         proven = f"proven: nowhere closer than {down(run.clearance)} to anything ({asked} asked)"
+    met = run.encounters
+    if met is not None and np.isfinite(met.clearance):
+        proven += f", {down(met.clearance)} from '{style.short(met.obstacle or '')}', which moves"
     second = body_subtitle(run.plan) if run.reached else run.reason
     return title, (f"{proven}; {paths}", second)
 
@@ -106,7 +109,7 @@ def _draw_map(sheet: SpatialSheet, scene: SpatialScene, run: SpatialRun) -> list
     vias, places = draw_vias(axes, labels, route, plan.mission)
     draw_arrows(axes, run.positions[:, :2], style.INK, avoid=places, every=HEADS_PX)
     handles += vias + _draw_replans(axes, labels, run)
-    handles += draw_moving_in_space(axes, labels, plan)
+    handles += draw_met_in_space(axes, labels, run)
     clear_contour_labels(axes)
     labels.place(np.vstack([planned, run.positions[:, :2]]), places)
     return handles

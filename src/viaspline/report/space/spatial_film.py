@@ -13,7 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from viaspline.report import style
 from viaspline.report.canvas import any_name
-from viaspline.report.space.moving_in_space import place_then, solids_past
+from viaspline.report.space.moving_in_space import solids_met
 from viaspline.report.space.spatial_picture import drawn_page
 from viaspline.report.video_file import VideoFile
 from viaspline.report.video_writer import Frame, write_film
@@ -58,7 +58,7 @@ def flight_frames(run: SpatialRun, name: str, count: int) -> Iterator[Frame]:
         0.98, 1 - 0.3 / up, "", size=style.TEXT_PT, color=style.MUTED, ha="right", va="center",
         family="DejaVu Sans Mono",
     )  # fmt: skip
-    solids = solids_past(run.plan)
+    solids = solids_met(run)
     (movers,) = sheet.map.plot(
         [], [], "o", color=style.MOVING_FILL, markeredgecolor=style.MOVING, markersize=9, zorder=29
     )
@@ -79,7 +79,7 @@ def flight_frames(run: SpatialRun, name: str, count: int) -> Iterator[Frame]:
             cursor.set_xdata([distance, distance])
         side.set_data([distance], [z])
         above.set_data([x], [y])
-        here = [place_then(one, np.array([time]))[0] for one in solids]
+        here = [one.at(np.array([time]))[0] for one in solids]
         movers.set_data([at[0] for at in here], [at[1] for at in here])
         nose.set_data([x, x + length * np.cos(heading)], [y, y + length * np.sin(heading)])
         clock.set_text(f"{time:6.1f} s  {speed:5.2f} m/s  {z:6.1f} m")

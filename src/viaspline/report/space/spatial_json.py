@@ -12,7 +12,7 @@ import numpy as np
 
 from viaspline.report.csv_tables import spacing, table_csv
 from viaspline.report.json_text import dumps
-from viaspline.report.moving_json import moving_certificate_data, waits_list
+from viaspline.report.moving_json import encounters_data, moving_certificate_data, waits_list
 from viaspline.report.plan_json import (
     certificate_data,
     law_data,
@@ -93,6 +93,8 @@ def flight_json(run: SpatialRun, name: str) -> str:
             "reason": run.reason or None,
             "duration_s": run.duration,
             "clearance_m": run.clearance,
+            **encounters_data(run.encounters),
+            **({} if run.encounters is None else {"broken_premises": run.broken_premises}),
             "replans": [
                 {
                     "seen_at_s": one.seen_at,

@@ -10,7 +10,13 @@ import math
 from rich.console import Group, RenderableType
 
 from viaspline.report.space.heights_json import heights_rows
-from viaspline.report.terminal_tables import MAX_LIST_LINES, Rows, facts_table, ledger_table
+from viaspline.report.terminal_tables import (
+    MAX_LIST_LINES,
+    Rows,
+    encounter_rows,
+    facts_table,
+    ledger_table,
+)
 from viaspline.report.units import asked_words, down, metres, place, seconds
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_run import SpatialRun
@@ -64,6 +70,8 @@ def spatial_run_rows(run: SpatialRun) -> Rows:
         ("reached its goal", "yes" if run.reached else f"NO: {run.reason}"),
         ("flown", seconds(run.duration)),
         ("clearance, proven", down(run.clearance)),
+        *encounter_rows(run.encounters),
+        *(("PREMISE", words) for words in run.broken_premises[:MAX_LIST_LINES]),
         ("largest speed", f"{float(run.speeds.max()):.2f} m/s"),
         ("heights", f"{metres(run.positions[:, 2].min(), 1)} to {run.positions[:, 2].max():.1f} m"),
         ("other paths under way", str(len(run.replans))),

@@ -83,7 +83,7 @@ def laws_among(
 
 
 def _cut(path: Path, knots: Floats) -> tuple[Floats, Floats]:
-    """The nodes of a path [m], and how far the curve is from its chords [m]."""
+    """The nodes of a path from its first knot on [m], and how far the curve is from its chords."""
     rows, at, along = path.packed_length
     table, _ = cut_courses(
         PackedPaths(
@@ -91,4 +91,6 @@ def _cut(path: Path, knots: Floats) -> tuple[Floats, Floats]:
             np.array([0, len(at)], np.int64), knots, np.array([0, len(knots)], np.int64),
         )
     )  # fmt: skip
-    return table[:, columns.DISTANCE].copy(), table[:, columns.BOW].copy()
+    distances = table[:, columns.DISTANCE]
+    first = int(distances.searchsorted(knots[0] - columns.SAME_PLACE))
+    return distances[first:].copy(), table[first:, columns.BOW].copy()

@@ -7,12 +7,12 @@ it doesn't turn, else about the frame's origin.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
-from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.mission.model import Mission
 from viaspline.mission.motion_spec import Motion
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -23,6 +23,8 @@ JUMP_S: Final = 1e-6
 """How long it isn't there while it jumps to where its loop begins [s]."""
 LONGEST_CELL_S: Final = 1.0
 """Of a motion of which it gets ever less certain where it is [s]."""
+LEAST_S: Final = 1e-9
+"""Of a cell [s]."""
 MAX_ROUNDS: Final = 5_000
 """How often a motion that goes on and on is repeated, at most; its way ends earlier then."""
 
@@ -70,11 +72,63 @@ class MovingSolid:
 
     @classmethod
     def all_of(cls, mission: Mission, begin: float, end: float) -> tuple[MovingSolid, ...]:
-        """All that moves in a mission, from one time to another [s]."""
+        """All that moves on the map of a mission, from one time to another [s]."""
         return tuple(
             cls.of(one, one.name or f"moving obstacle {k + 1}", begin, end)
             for k, one in enumerate(mission.world.moving)
         )
+
+    @classmethod
+    def unseen_of(cls, mission: Mission, begin: float, end: float) -> tuple[MovingSolid, ...]:
+        """All that moves and isn't on the map, from one time to another [s]."""
+        return tuple(
+            cls.of(one, one.name or f"unseen moving obstacle {k + 1}", begin, end)
+            for k, one in enumerate(mission.world.unseen_moving)
+        )
+
+    @property
+    def top_speed(self) -> float:
+        """How fast it goes where it is there at most [m/s]."""
+        lasts, ways = np.diff(self.times), np.linalg.norm(np.diff(self.places, axis=0), axis=1)
+        goes = self.there[:-1] & (lasts > 0.0)
+        return float((ways[goes] / lasts[goes]).max(initial=0.0))
+
+    def since(self, begin: float) -> MovingSolid:
+        """It from a later time on [s]; before its last node at the latest."""
+        later = self.times > begin
+        later[-1] = True
+        first = max(len(later) - int(later.sum()) - 1, 0)
+        if not self.times[first] < begin < self.times[-1]:
+            return self
+        times, places = self.times[first:].copy(), self.places[first:].copy()
+        places[0] = self.at_any_time(begin)
+        times[0] = begin
+        return replace(
+            self, times=times, places=places, there=self.there[first:], off=self.off[first:]
+        )
+
+    def at_any_time(self, time: float) -> Floats:
+        """Where its middle is, or would be if it were there, at a time [s]: [m], (3,)."""
+        return np.array([np.interp(time, self.times, self.places[:, k]) for k in range(3)])
+
+    def at(self, times: Floats) -> Floats:
+        """Where its middle is at times [s], (t,): [m], (t, 3); nan where it isn't there."""
+        at = np.column_stack([np.interp(times, self.times, self.places[:, k]) for k in range(3)])
+        return np.where(self.there[self._cell(times)][:, None], at, np.nan)
+
+    def off_at(self, times: Floats) -> Floats:
+        """How far from there it may be at times [s], (t,), at most: [m], (t,)."""
+        return np.asarray(self.off[self._cell(times)])
+
+    def velocity(self, time: float) -> Floats:
+        """How it goes on from a time [s]: [m/s], (3,)."""
+        k = min(int(self._cell(np.array([time]))[0]), len(self.times) - 2)
+        lasts = max(float(self.times[k + 1] - self.times[k]), LEAST_S)
+        return np.asarray((self.places[k + 1] - self.places[k]) / lasts)
+
+    def _cell(self, times: Floats) -> Ints:
+        row = np.searchsorted(self.times, times, side="right") - 1
+        return np.asarray(np.clip(row, 0, len(self.times) - 1))
 
 
 def _turns(motion: Motion) -> bool:

@@ -7,7 +7,6 @@ or beside it, and timed as well.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
@@ -16,9 +15,9 @@ from typing import Final
 import numpy as np
 
 from viaspline.errors import GaveUpError, PlanningError
-from viaspline.mission.shapes.capsule import Capsule
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.space.among.moving_solid import HIGH_M, MovingSolid
+from viaspline.space.among.moving_solid import MovingSolid
+from viaspline.space.among.swept_way import capsule_round
 from viaspline.space.among.timed_past import proven_beside, solids_beside, timed_past
 from viaspline.space.laid_round import laid_round
 from viaspline.space.spatial_plan import SpatialPlan
@@ -31,7 +30,6 @@ MAX_LINES: Final = 60
 """A path is laid round the way of what moves if that has no more lines."""
 MAX_ROUNDS: Final = 3
 """How often a path is laid, round ever more of what moves."""
-LEAST_M: Final = 0.02
 
 
 def plan_past_moving(static: SpatialPlan) -> SpatialPlan:
@@ -114,7 +112,6 @@ def swept(one: MovingSolid, plan: SpatialPlan) -> list[Obstacle]:
 
     None where its way has too many lines, or it is where the route has to pass anyway.
     """
-    radius, half, margin = one.body
     ways = dict.fromkeys(
         (tuple(first), tuple(last))
         for k, (first, last) in enumerate(pairwise(one.places.round(6).tolist()))
@@ -122,19 +119,18 @@ def swept(one: MovingSolid, plan: SpatialPlan) -> list[Obstacle]:
     )
     if len(ways) > MAX_LINES:
         return []
-    off = float(one.off.max()) + margin
+    off = float(one.off.max())
     points = np.array([via.at for via in plan.path.vias if via.kind == "user"], np.float64)
     found = []
     for k, (first, last) in enumerate(ways):
-        is_flat = half > 0.5 * HIGH_M
-        ends = [first[:2], last[:2]] if is_flat else [first, last]
-        wide = (radius if is_flat else math.hypot(radius, half)) + off
-        capsule = Capsule.model_validate(
-            {"from": ends[0], "to": ends[1], "radius": max(wide, LEAST_M)}
+        way = capsule_round(
+            one, np.array(first), np.array(last), off, f"the way of {one.name}, {k + 1}"
         )
-        if _distance(points[:, : len(ends[0])], *map(np.array, ends)) <= wide:
+        assert way.capsule is not None
+        ends = np.array(way.capsule.from_), np.array(way.capsule.to)
+        if _distance(points[:, : len(ends[0])], *ends) <= way.capsule.radius:
             return []
-        found.append(Obstacle(name=f"the way of {one.name}, {k + 1}", capsule=capsule))
+        found.append(way)
     return found
 
 

@@ -69,7 +69,7 @@ def timed_past(
         GaveUpError: The path and the ways of what moves come near each other in too many places.
     """
     hold = mission.route.hold_s
-    past = law_past_moving(path, static, hold, limits, _kept(mission), moving)
+    past = law_past_moving(path, static, hold, limits, kept_about(mission), moving)
     if isinstance(past, str):
         return past
     proof = proven_beside(path, past.trajectory, hold, mission, moving)
@@ -91,13 +91,13 @@ def proven_beside(
         mission: Whose robot it is.
         moving: What moves, from the law's beginning until then.
     """
-    radius, half, margin = _kept(mission)
+    radius, half, margin = kept_about(mission)
     clearance = mission.robot.clearance_m
     bare = (radius, half, margin - clearance)
     return proven_past_moving(path, law, hold, bare, clearance, moving)
 
 
-def _kept(mission: Mission) -> tuple[float, float, float]:
+def kept_about(mission: Mission) -> tuple[float, float, float]:
     """Radius and half height of the robot's cylinder, and what is kept about it [m]."""
     body = FlyingBody.of(mission.robot)
     return body.radius, body.half_height, body.margin + mission.robot.clearance_m

@@ -6,47 +6,77 @@ Tested through ``space/online/test_fly``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from viaspline.curve.certificate import certify
+from viaspline.mission.model import Mission
+from viaspline.space.among.moving_solid import MovingSolid
+from viaspline.space.among.timed_past import proven_beside
+from viaspline.space.online.flight import Flight
+from viaspline.space.online.flown_encounters import flown_encounters, states_at
 from viaspline.space.online.flown_leg import FlownLeg
+from viaspline.space.online.solid_sensor import SolidSensor
 from viaspline.space.spatial_plan import SpatialPlan
-from viaspline.space.spatial_run import SpatialReplan, SpatialRun
+from viaspline.space.spatial_run import SpatialRun
 from viaspline.space.without_ground import without_ground
+from viaspline.tracks.encounters import touched_by
 from viaspline.world.space.spatial_world import SpatialWorld
 
 
-def recorded(
-    plan: SpatialPlan, legs: Sequence[FlownLeg], replans: tuple[SpatialReplan, ...], reason: str,
-    world: SpatialWorld, step: float,
-) -> SpatialRun:  # fmt: skip
+def recorded(plan: SpatialPlan, flight: Flight, world: SpatialWorld, step: float) -> SpatialRun:
     """The record of a flight.
 
     Args:
         plan: What it began with.
-        legs: What was flown, each until the next one began.
-        replans: Where the path was changed.
-        reason: Why the goal wasn't reached; empty if it was.
-        world: Everything that there is, seen or not.
+        flight: What was flown.
+        world: Everything that stands, seen or not.
         step: From one moment to the next [s].
     """
-    start = plan.trajectory.start_time
-    end = min(legs[-1].until, legs[-1].law.end_time)
+    legs, reason = flight.legs, flight.reason
+    start, end = plan.trajectory.start_time, flight.end_time
     times = np.append(np.arange(start, end, step, dtype=np.float64), end)
-    ends = [*(leg.until for leg in legs[:-1]), np.inf]
-    owner = np.searchsorted(ends, times, side="right")
-    parts = [leg.states(times[owner == k]) for k, leg in enumerate(legs)]
-    positions, headings, speeds, climbs = (
-        np.concatenate(column) for column in zip(*parts, strict=True)
-    )
+    positions, headings, speeds, climbs = states_at(legs, times)
     clearance = _clearance(plan, legs, not reason, world)
     moving = (leg.moving.clearance for leg in legs if leg.moving is not None)
     clearance = min([clearance, *moving])
     return SpatialRun(
-        plan, times, positions, headings, speeds, climbs, replans, clearance, not reason, reason
+        plan, times, positions, headings, speeds, climbs, flight.replans, clearance, not reason,
+        reason,
+    )  # fmt: skip
+
+
+def recorded_among(
+    plan: SpatialPlan, flight: Flight, world: SpatialWorld, sensor: SolidSensor, step: float
+) -> SpatialRun:
+    """The record of a flight among what moved and wasn't on the map.
+
+    Args:
+        plan: What it began with.
+        flight: What was flown.
+        world: Everything that stands, seen or not.
+        sensor: What it saw with.
+        step: From one moment to the next, and between two looks [s].
+    """
+    mission, end = plan.mission, flight.end_time
+    legs = tuple(_beside_the_map(leg, min(leg.until, end), mission) for leg in flight.legs)
+    run = recorded(plan, replace(flight, legs=legs), world, step)
+    on_map = MovingSolid.all_of(mission, flight.legs[0].law.start_time, end + step)
+    met = flown_encounters(flight.legs, end, mission.robot, on_map, sensor, step)
+    reason = run.reason or touched_by(met) or ""
+    return replace(
+        run, reached=not reason, reason=reason, encounters=met, broken_premises=flight.broken
     )
+
+
+def _beside_the_map(leg: FlownLeg, until: float, mission: Mission) -> FlownLeg:
+    """A leg with the proof of how far it stayed from what moves as the map says, until a time."""
+    moving = MovingSolid.all_of(mission, leg.law.start_time, until)
+    if not moving or until <= leg.law.start_time:
+        return replace(leg, moving=None)
+    return replace(leg, moving=proven_beside(leg.path, leg.law, 0.0, mission, moving))
 
 
 def _clearance(

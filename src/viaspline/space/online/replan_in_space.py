@@ -14,6 +14,7 @@ import numpy as np
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.mission.model import Mission
+from viaspline.space.among.moving_solid import MovingSolid
 from viaspline.space.among.timed_past import solids_beside, timed_past
 from viaspline.space.leg_router import LegRouter
 from viaspline.space.online.flown_leg import FlownLeg
@@ -43,7 +44,7 @@ class NewLeg:
 
 def replan_in_space(
     mission: Mission, problem: SpatialProblem, old: FlownLeg, ahead: Sequence[SpatialVia],
-    begins: Takeover,
+    begins: Takeover, foreseen: Sequence[MovingSolid] = (),
 ) -> NewLeg | PlanningError | GeometryError:  # fmt: skip
     """A path from a take-over on through the via points that are still ahead.
 
@@ -53,6 +54,7 @@ def replan_in_space(
         old: What is flown until then.
         ahead: The via points that are still to be served.
         begins: Where and how fast.
+        foreseen: What moves and isn't on the map, as it is taken to go on.
 
     Returns:
         What is flown from then on; or why there is nothing.
@@ -87,8 +89,8 @@ def replan_in_space(
     if law.over_limit_until is not None:
         return GeometryError("the robot is too fast for the new path where it begins")
     leg = FlownLeg(found.path, law, yaw, float("inf"))
-    if mission.world.moving:
-        return _past_moving(NewLeg(leg, asked), mission)
+    if mission.world.moving or foreseen:
+        return _past_moving(NewLeg(leg, asked), mission, foreseen)
     return NewLeg(leg, asked)
 
 
@@ -100,10 +102,12 @@ def _turned_from(old: FlownLeg, begins: Takeover, yaw: YawProfile, path: Path) -
     return YawProfile(yaw.distances, yaw.headings + by * left)
 
 
-def _past_moving(found: NewLeg, mission: Mission) -> NewLeg | PlanningError | GeometryError:
+def _past_moving(
+    found: NewLeg, mission: Mission, foreseen: Sequence[MovingSolid]
+) -> NewLeg | PlanningError | GeometryError:
     """What is flown from a take-over on past what moves, at the speed that the robot has there."""
     leg, law = found.leg, found.leg.law
-    moving = solids_beside(mission, law, mission.route.hold_s)
+    moving = (*solids_beside(mission, law, mission.route.hold_s), *foreseen)
     try:
         past = timed_past(leg.path, law, found.problem.limits, mission, moving)
     except PlanningError as problem_found:

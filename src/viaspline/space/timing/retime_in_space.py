@@ -21,7 +21,8 @@ FREE_AXIS = 10.0
 
 def retime_in_space(
     path: Path, limits: SpatialLimits, stations: tuple[Station, ...], yaw: YawProfile, *,
-    zones: Sequence[SpeedZone] = (), start_speed: float = 0.0, start_time: float = 0.0,
+    zones: Sequence[SpeedZone] = (), start: float = 0.0, start_speed: float = 0.0,
+    start_time: float = 0.0,
 ) -> Trajectory:  # fmt: skip
     """The fastest drive along a path that keeps every limit everywhere.
 
@@ -35,7 +36,8 @@ def retime_in_space(
         stations: Stops, each with its dwell.
         yaw: The headings along the path.
         zones: Areas with a lower speed, at every height.
-        start_speed: Speed where the path begins [m/s].
+        start: Distance along the path at which the law begins [m]; stops before it are left out.
+        start_speed: Speed there [m/s].
         start_time: When that is [s].
 
     Raises:
@@ -54,8 +56,8 @@ def retime_in_space(
     )
     stops = with_yaw_turns(stations, yaw, limits.yaw_rate)
     return retime(
-        path, along_limits(limits), stops, slow=slow, zones=zones, start_speed=start_speed,
-        start_time=start_time,
+        path, along_limits(limits), stops, slow=slow, zones=zones, start=start,
+        start_speed=start_speed, start_time=start_time,
     )  # fmt: skip
 
 

@@ -1,0 +1,146 @@
+"""Flights among things that move and aren't on the map, against exact gaps at fine instants."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import event, given, settings
+from hypothesis import strategies as st
+
+from viaspline.errors import GeometryError
+from viaspline.space.online.fly import fly
+from viaspline.space.plan_spatial import plan_spatial
+
+sys.path.insert(0, str(Path(__file__).parent))
+from unseen_flights import CLEARANCE, gaps_and_speeds, mission, moves, wanderer
+
+CROSSING = moves("kite", 1.0, [[0, 40, -24, 10], [30, 40, 24, 10]])
+HEAD_ON = moves("plane", 1.0, [[0, 80, 2, 10], [40, -20, 2, 10]])
+
+
+def test_what_crosses_straight_on_is_let_pass_with_the_clearance_that_is_asked_for() -> None:
+    slow = moves("kite", 1.0, [[0, 40, -15, 10], [20, 40, 15, 10]])
+    plan = plan_spatial(mission([slow]))
+    run = fly(plan)
+    gaps, _ = gaps_and_speeds(run, slow)
+    assert run.reached
+    assert plan.trajectory.duration < run.duration < plan.trajectory.duration + 8
+    assert gaps.min() >= CLEARANCE - 1e-3
+    assert run.encounters is not None
+    assert run.encounters.contacts == ()
+    assert 0.9 < run.encounters.clearance <= gaps.min() + 1e-9
+
+
+def test_nobody_gives_way_to_what_is_never_in_the_way() -> None:
+    plan = plan_spatial(mission([CROSSING]))
+    aside = moves("kite", 1.0, [[0, 40, 9, 10], [30, 70, 9, 10]])
+    run = fly(plan_spatial(mission([aside])))
+    assert run.duration == pytest.approx(plan.trajectory.duration)
+    assert run.replans == ()
+
+
+def test_what_comes_head_on_is_flown_round_where_it_is_seen_soon_enough() -> None:
+    run = fly(plan_spatial(mission([HEAD_ON], reach=40)))
+    gaps, _ = gaps_and_speeds(run, HEAD_ON)
+    assert run.reached
+    assert [one.obstacles for one in run.replans] == [("plane",)]
+    assert gaps.min() >= CLEARANCE
+    assert run.speeds[(run.times > 4) & (run.times < 15)].min() > 2.5
+
+
+def test_what_stands_in_the_way_for_good_ends_the_flight_before_it_with_its_name() -> None:
+    blocking = {**moves("crane", 45.0, [[0, 60, 0, 10], [1, 60, 0, 10.0001]])}
+    run = fly(plan_spatial(mission([blocking], reach=30)))
+    assert not run.reached
+    assert "'crane'" in run.reason
+    assert run.speeds[-1] == 0.0
+    gaps, _ = gaps_and_speeds(run, blocking)
+    assert gaps[-1] >= 0.0
+
+
+def test_what_goes_away_again_is_waited_for() -> None:
+    gate = moves("gate", 25.0, [[0, 50, 0, 10], [20, 50, 0, 10], [30, 50, 0, 110]])
+    run = fly(plan_spatial(mission([gate], reach=30)))
+    gaps, speeds = gaps_and_speeds(run, gate)
+    assert run.reached
+    assert run.duration > 24
+    assert gaps[speeds > 1e-3].min() >= 0.0
+
+
+def test_things_that_move_on_the_map_and_off_it_are_both_let_pass() -> None:
+    lift = moves("lift", 1.0, [[0, 60, 0, 40], [10, 60, 0, 10], [16, 60, 0, 10], [26, 60, 0, 40]])
+    slow = moves("kite", 1.0, [[0, 30, -12, 10], [16, 30, 12, 10]])
+    run = fly(plan_spatial(mission([slow], known=[lift])))
+    assert run.reached
+    for one in (lift, slow):
+        assert gaps_and_speeds(run, one)[0].min() >= CLEARANCE - 1e-3
+    assert CLEARANCE - 1e-6 <= run.clearance <= gaps_and_speeds(run, lift)[0].min() + 1e-6
+
+
+def test_what_stands_unseen_behind_what_moves_unseen_is_led_round_too() -> None:
+    stands = {"name": "mast", "ball": {"center": [55, 0, 10], "radius": 2}}
+    slow = moves("kite", 1.0, [[0, 30, -12, 10], [16, 30, 12, 10]])
+    run = fly(plan_spatial(mission([slow, stands])))
+    assert run.reached
+    assert "mast" in {name for one in run.replans for name in one.obstacles}
+    assert run.clearance >= CLEARANCE - 1e-6
+    free = np.linalg.norm(run.positions - (55, 0, 10), axis=1).min() - 2.5
+    assert free >= run.clearance - 1e-6
+    assert gaps_and_speeds(run, slow)[0].min() >= CLEARANCE - 1e-3
+
+
+def test_a_premise_that_is_broken_is_told() -> None:
+    fast = moves("jet", 0.5, [[0, 40, -60, 10], [20, 40, 60, 10]])
+    run = fly(plan_spatial(mission([fast], things={"max_speed_mps": 2, "safety": "none"})))
+    assert any("'jet' goes 6.00 m/s, and not 2 at most" in one for one in run.broken_premises)
+    kept = fly(plan_spatial(mission([fast], things={"max_speed_mps": 7, "safety": "none"})))
+    assert kept.broken_premises == ()
+
+
+def test_what_jumps_into_the_way_is_told_as_a_contact_that_came_too_late() -> None:
+    jumps = moves("ghost", 1.0, [[6.0, 26.0, 0, 10], [7, 26.0, 0, 10.01]])
+    jumps["motion"]["before"] = "absent"
+    run = fly(plan_spatial(mission([jumps])))
+    assert run.encounters is not None
+    assert not run.reached
+    assert run.encounters.contacts[0].appeared_within_braking_time
+    assert "the robot touched 'ghost'" in run.reason
+
+
+def test_a_flight_among_what_moves_unseen_takes_a_sensor() -> None:
+    asked = mission([CROSSING])
+    blind = asked.model_copy(update={"robot": asked.robot.model_copy(update={"sensor": None})})
+    with pytest.raises(GeometryError, match="no sensor"):
+        fly(plan_spatial(blind))
+
+
+@settings(max_examples=4)
+@given(seed=st.integers(0, 100_000))
+def test_flights_keep_their_limits_and_tell_the_gaps_that_there_were(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    moving = [wanderer(rng, f"m{k}", 3.0) for k in range(int(rng.integers(1, 4)))]
+    asked = mission(moving, noise=float(rng.choice((0.0, 0.2))))
+    run = fly(plan_spatial(asked), seed=seed)
+    event("reached" if run.reached else "not reached")
+    assert run.encounters is not None
+    least = min(gaps_and_speeds(run, one)[0].min() for one in moving)
+    assert run.encounters.clearance <= least + 5e-3  # places are interpolated there
+    touched = [one for one in run.encounters.contacts if one.robot_speed > 0.0]
+    assert run.reached or touched or run.reason
+    lasts = np.maximum(np.diff(run.times), 1e-9)
+    steps = np.linalg.norm(np.diff(run.positions, axis=0), axis=1)
+    assert (steps / lasts)[lasts > 1e-6].max() <= 5 * (1 + 1e-6)
+    assert np.abs(np.diff(run.speeds) / lasts)[lasts > 1e-6].max() <= 2 * (1 + 1e-6)
+    assert run.clearance >= CLEARANCE - 1e-6
+
+
+def test_the_same_seed_gives_the_same_flight() -> None:
+    rng = np.random.default_rng(11)
+    moving = [wanderer(rng, f"m{k}", 3.0) for k in range(2)]
+    plan = plan_spatial(mission(moving, noise=0.2))
+    first, again, other = (fly(plan, seed=seed) for seed in (3, 3, 4))
+    assert first.samples().tobytes() == again.samples().tobytes()
+    assert first.samples().tobytes() != other.samples().tobytes()
