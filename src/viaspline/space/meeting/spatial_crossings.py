@@ -185,8 +185,8 @@ def _boxes(mine: _Pieces, its: _Pieces, i: Ints, j: Ints) -> tuple[Ints, Floats,
     none = np.empty(0)
     if not len(i):
         return np.empty(0, np.int64), none, none
-    keys = np.unique(np.column_stack((mine.cell[i], j)), axis=0)
-    cell, piece = keys[:, 0], keys[:, 1]
+    count = len(its.cell)
+    cell, piece = np.divmod(np.unique(mine.cell[i] * count + j), count)
     apart = its.low[piece[1:]] - its.high[piece[:-1]]
     begins = np.append(True, (np.diff(cell) > 0) | (apart > ONE_GAP))
     ends = np.append(begins[1:], True)
