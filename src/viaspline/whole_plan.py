@@ -12,7 +12,7 @@ from functools import cached_property
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
-from viaspline.machine.allowance import TRACKING_REMEDY, allowance, allowance_on_bends
+from viaspline.machine.allowance import allowance, allowance_on_bends, tracking_remedy
 from viaspline.machine.drivability import Drivability
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.measure_drivability import drivability_of
@@ -188,7 +188,7 @@ def _as_driven(first: Plan) -> Plan:
         result = _with_error(first.mission, first.world, error)
     raise GeometryError(
         f"the robot gets ever farther beside its path, {result.tracking_error:.2f} m in the last "
-        f"trial drive; give it {TRACKING_REMEDY}, or say what to keep by tracking_error_m"
+        f"trial drive; give it {tracking_remedy(result.mission.robot)}"
     )
 
 

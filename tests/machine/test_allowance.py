@@ -10,6 +10,8 @@ from viaspline.errors import GeometryError
 from viaspline.machine.allowance import allowance, allowance_on_bends
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.trial_drive import follow
+from viaspline.mission.model import Mission
+from viaspline.planner import plan
 from viaspline.trajectory.retime import retime
 
 
@@ -33,3 +35,23 @@ def test_a_robot_that_can_not_follow_is_told_what_to_change(robot_of: Any, bends
     slow = type(robot).model_validate({"drive": crawling})
     with pytest.raises(GeometryError, match="give it a lower max_speed_mps"):
         allowance(bends, retime(bends, limits_of(robot)), slow)
+
+
+def test_bends_that_nobody_knows_yet_are_named_with_what_lets_them_be_followed() -> None:
+    """The path may be followed well; it is the next one, laid under way, that may not be."""
+    drive = {
+        "ackermann": {"wheelbase_m": 1.152, "max_steer_deg": 45, "max_steer_rate_degps": 15},
+        "delay_s": 0.05, "lag_s": 0.1, "yaw_rate_noise_degps": 2,
+    }  # fmt: skip
+    document: dict[str, Any] = {
+        "robot": {"radius_m": 0, "clearance_m": 0.144, "drive": drive, "sensor": {"range_m": 12}},
+        "route": {"start": [0, 0], "via": [[54, 0], [54, 21]], "goal": [0, 21]},
+    }
+    with pytest.raises(GeometryError, match=r"bends of 1\.38 m, which a path.*under way") as told:
+        plan(Mission.model_validate(document))
+    assert "faster steering (max_steer_rate_degps), or say what to keep" in str(told.value)
+    drive["ackermann"]["max_steer_rate_degps"] = 30  # type: ignore[index]
+    assert plan(Mission.model_validate(document)).certificate.holds
+    drive["ackermann"]["max_steer_rate_degps"] = 15  # type: ignore[index]
+    document["robot"]["tracking_error_m"] = 0.4
+    assert plan(Mission.model_validate(document)).certificate.holds

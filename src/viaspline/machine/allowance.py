@@ -29,13 +29,16 @@ UNMEASURED_M = 0.005
 """What is added for what a trial drive leaves out: the curve through the steps, rounding [m]."""
 
 
-def allowance(path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec) -> float:
+def allowance(
+    path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec, what: str = "its path"
+) -> float:
     """The tracking error that a robot's clearance has to allow for on a path [m].
 
     Args:
         path: In the plane.
         trajectory: Its time law.
         robot: Its body, drive and localisation.
+        what: What the path is called where the robot can't follow it.
 
     Raises:
         GeometryError: When the robot doesn't come to the end of the path.
@@ -54,13 +57,15 @@ def allowance(path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec) ->
         track = follow(path, trajectory, robot, seed=seed)
         if not track.finished:
             raise GeometryError(
-                f"the robot can't follow its path: in a trial drive it was {track.times[-1]:.0f} s "
+                f"the robot can't follow {what}: in a trial drive it was {track.times[-1]:.0f} s "
                 f"under way at {track.tracking.progress[-1]:.1f} m of {path.length:.1f} m; "
-                f"give it {TRACKING_REMEDY}"
+                f"give it {tracking_remedy(robot)}"
             )
         largest = max(largest, track.tracking.body_deviation(reach))
     if not math.isfinite(largest):
-        raise GeometryError(f"the robot can't follow its path at all; give it {TRACKING_REMEDY}")
+        raise GeometryError(
+            f"the robot can't follow {what} at all; give it {tracking_remedy(robot)}"
+        )
     return ERROR_MARGIN * largest + UNMEASURED_M
 
 
@@ -79,7 +84,16 @@ def allowance_on_bends(robot: RobotSpec, radius: float) -> float:
     aside = np.where((posts == 0) | (posts == SLALOM_BENDS + 1), 0.0, (-1.0) ** posts)
     points = tight * np.column_stack((4.0 * posts, aside))
     slalom = CardinalSpline(points, knots="chordal", tangents="continuous")
-    return allowance(slalom, retime(slalom, limits_of(robot)), robot)
+    bends = f"bends of {tight:.3g} m, which a path that is laid under way may have"
+    return allowance(slalom, retime(slalom, limits_of(robot)), robot, bends)
+
+
+def tracking_remedy(robot: RobotSpec) -> str:
+    """What lets a robot follow its path, or what it is planned by where it can't."""
+    steered = None if robot.drive is None else robot.drive.ackermann
+    slow = steered is not None and steered.max_steer_rate_degps is not None
+    faster = ", faster steering (max_steer_rate_degps)" if slow else ""
+    return f"{TRACKING_REMEDY}{faster}, or say what to keep by tracking_error_m"
 
 
 TRACKING_REMEDY = (
