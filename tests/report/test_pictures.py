@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import io
 import math
+from dataclasses import replace
 from typing import Any
 
 import matplotlib as mpl
@@ -15,13 +16,15 @@ from PIL import Image
 from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
+from viaspline.planning.alternatives.kept_account import KeptAccount
 from viaspline.report import style
 from viaspline.report.canvas import new_figure, renderer_of
 from viaspline.report.driven_line import DrivenKey, draw_driven, sharpest_driven, speed_colours
 from viaspline.report.labels import Labels
-from viaspline.report.plan_picture import plan_picture, plan_scene, via_ticks
+from viaspline.report.plan_picture import draw_losers, plan_picture, plan_scene, via_ticks
 from viaspline.report.profile_strips import mark_clipped, shown_range
 from viaspline.report.run_picture import echoes, run_picture
+from viaspline.report.sheet import new_sheet
 from viaspline.robot.run import Run
 
 
@@ -75,6 +78,18 @@ def test_a_long_body_is_on_the_picture_as_a_whole() -> None:
     _, (x_min, _, x_max, _) = plan_scene(plan(mission))
     assert x_min < -4
     assert x_max > 7
+
+
+def test_a_way_that_loses_against_several_groups_has_its_label_once(planned: Plan) -> None:
+    _, view = plan_scene(planned)
+    counts = []
+    for times in (1, 3):
+        kept = KeptAccount(planned.ledger * times)
+        sheet = new_sheet(view, (), "plan", ())
+        labels = Labels(sheet.map)
+        draw_losers(sheet, labels, replace(planned, account=kept))
+        counts.append(len(labels._labels))
+    assert counts[0] == counts[1] > 0
 
 
 def test_a_closed_route_ends_where_it_starts() -> None:

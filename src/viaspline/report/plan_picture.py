@@ -213,6 +213,7 @@ def draw_losers(sheet: Sheet, labels: Labels, plan: Plan) -> list[Artist]:
     for line in lines:
         handles = [_draw_loser(sheet.map, line, label)]
     legs: set[tuple[str, str]] = set()
+    said: set[tuple[tuple[str, str], str]] = set()  # one way may lose against several groups
     for entry in plan.ledger if len(plan.ledger) <= MAX_GROUPS_MEASURED else ():
         taken = entry.chosen
         if taken is None or taken.length is None or len(entry.candidates) < 2:
@@ -225,8 +226,10 @@ def draw_losers(sheet: Sheet, labels: Labels, plan: Plan) -> list[Artist]:
             text = (
                 f"{candidate.side}: {metres(candidate.length, 1)} ({more:+.1f} m, {later:+.1f} s)"
             )
-            at = _far_from(candidate.spans, taken.spans)
-            labels.add(text, at, rank=4, colour=style.LOSER)
+            if (entry.leg, text) not in said:
+                said.add((entry.leg, text))
+                at = _far_from(candidate.spans, taken.spans)
+                labels.add(text, at, rank=4, colour=style.LOSER)
         if losers and entry.leg not in legs:
             legs.add(entry.leg)
             at = _far_from(taken.spans, losers[0].spans)
