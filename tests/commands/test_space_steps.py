@@ -50,3 +50,16 @@ def test_a_flight_that_finds_no_way_says_so_and_exits_with_4(tower: Path, tmp_pa
     done = CliRunner().invoke(cli, ["run", str(tower), "--out", str(tmp_path / "out")])
     assert done.exit_code == 4
     assert "tent" in done.output
+
+
+def test_what_moves_and_is_not_on_the_map_is_in_the_results(tower: Path, tmp_path: Path) -> None:
+    kite = "{name: kite, ball: {center: [0, 0, 0], radius: 1}, motion: {keyframes: " \
+           "[[0, 60, -30, 0, 8], [60, 60, 30, 0, 8]], after: stay}}"  # fmt: skip
+    tower.write_text(MISSION.replace("robot:", f"  unseen:\n    - {kite}\nrobot:"))
+    out = tmp_path / "out"
+    done = CliRunner().invoke(cli, ["run", str(tower), "--out", str(out), "--seed", "3"])
+    told = json.loads((out / "run.json").read_text())
+    assert done.exit_code == (0 if told["reached"] else 4), done.output
+    assert told["moving"]["nearest"] == "kite"
+    assert told["broken_premises"] == []
+    assert isinstance(told["contacts"], list)

@@ -73,7 +73,7 @@ def run(
             check_not_asked({"--bag": bag, "--real-time": real_time}, "in space")
             from viaspline.commands.space_steps import run_spatial_mission
 
-            run_spatial_mission(asked, mission, out, animate=animate, quiet=quiet)
+            run_spatial_mission(asked, mission, out, seed=seed, animate=animate, quiet=quiet)
             return
         from viaspline.commands.mission_steps import run_mission
 

@@ -55,7 +55,7 @@ def plan_spatial_mission(asked: Mission, file: Path, out: Path | None, *, quiet:
 
 
 def run_spatial_mission(
-    asked: Mission, file: Path, out: Path | None, *, animate: Path | None, quiet: bool
+    asked: Mission, file: Path, out: Path | None, *, seed: int, animate: Path | None, quiet: bool
 ) -> None:
     """Plan a mission in space, fly it, write the files of both and say what came of it.
 
@@ -63,6 +63,7 @@ def run_spatial_mission(
         asked: What was read.
         file: From where.
         out: The folder for the results; None: the usual one.
+        seed: Of the noise of its sensor.
         animate: The file of a film; None: there is none.
         quiet: Say nothing when all goes well.
     """
@@ -78,7 +79,7 @@ def run_spatial_mission(
         with watch.stage("simulate", "flying"):
             from viaspline.space.online.fly import fly
 
-            flown = fly(planned)
+            flown = fly(planned, seed=seed)
         with watch.stage("report", "drawing and writing"):
             from viaspline.report import results
             from viaspline.report.space.spatial_results import (
