@@ -62,6 +62,44 @@ def test_a_place_is_slow_exactly_where_it_is_inside(seed: int) -> None:
     assert np.all(shapely.distance(area, wrong) <= 2 * ZONE_EDGE_M)
 
 
+@given(seeds)
+@settings(deadline=None, max_examples=30)
+def test_a_curve_along_a_turned_edge_is_slow_all_along_it_in_one_part(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    way, at = rng.normal(0, 1, 2), rng.normal(0, 20, 2)
+    way /= np.hypot(*way)
+    across = way[::-1] * (-1.0, 1.0)
+    beside = float(rng.uniform(0.0, 0.9)) * ZONE_EDGE_M
+    corners = [at, at + 9 * way, at + 9 * way + 4 * across, at + 4 * across]
+    edge = at + np.linspace(0, 9, 4)[:, None] * way + beside * across
+    area = zone([tuple(corner) for corner in np.array(corners).tolist()])
+    (low, high, _), *others = slow_parts(edge[None], [area])
+    assert not others
+    assert (low, high) == pytest.approx((0.0, 1.0), abs=1e-6)
+
+
+@given(seeds)
+@settings(deadline=None, max_examples=30)
+def test_parts_are_as_many_as_the_crossings_say(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    path = CardinalSpline(np.cumsum(rng.normal(0, 6, (5, 2)), axis=0), knots="centripetal")
+    areas = [one for one in (shapely.Polygon(star(rng)) for _ in range(3)) if one.is_valid]
+    zones = [zone(list(one.exterior.coords)[:-1], 0.1 * (k + 1)) for k, one in enumerate(areas)]
+    inside = [shapely.contains_xy(a, *path.evaluate(np.linspace(0, 4, 200_001)).T) for a in areas]
+    runs = [int(within[0]) + int(np.sum(~within[:-1] & within[1:])) for within in inside]
+    found = [speed for _, _, speed in slow_parts(path.spans, zones)]
+    counted = [found.count(one.max_speed_mps) for one in zones]
+    assert all(many >= few for many, few in zip(counted, runs, strict=True))  # samples miss some
+    assert sum(counted) - sum(runs) <= 2
+
+
+def test_a_zone_inside_of_a_span_that_goes_round_it_is_found_only_where_it_is_met() -> None:
+    round_it = np.array([[[0.0, 0.0], [30.0, 0.0], [30.0, 20.0], [0.0, 20.0]]])
+    assert slow_parts(round_it, [box(8, 9, 9, 10)]) == []
+    (part,) = slow_parts(round_it, [box(22, 9, 23, 10)])
+    assert 0.4 < part[0] < 0.5 < part[1] < 0.6
+
+
 def test_a_line_through_a_zone_slows_down_for_it_and_speeds_up_behind() -> None:
     law = retime(line(), LIMITS, zones=[box(10, -1, 20, 1)])
     assert law.speed_at([10.0, 15.0, 20.0]) == pytest.approx([0.5, 0.5, 0.5], abs=1e-5)

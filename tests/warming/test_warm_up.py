@@ -53,7 +53,7 @@ def test_every_part_of_a_kind_is_met_in_its_small_missions() -> None:
         found = {found for _, mission in missions_of(kind) for one in kinds_of(mission)
                  for found in one.parts}  # fmt: skip
         assert part in found, part
-        assert part in OF_PART or part in ("map", "moving", "laps", "corridor")
+        assert part in OF_PART or part in ("map", "moving", "laps", "corridor", "zones")
 
 
 class Apart:

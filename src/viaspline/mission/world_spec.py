@@ -5,10 +5,14 @@ Tested through ``mission/test_resolve_files``.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Annotated, Any, TypeAlias
 
+import numpy as np
 from pydantic import BeforeValidator
 
+from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.annotations import Expects
 from viaspline.mission.fields import Coordinate, Name, Ring, Rings, Speed, plain
 from viaspline.mission.map_spec import MapSpec
@@ -64,6 +68,23 @@ class SpeedZone(
     polygon: Ring
     max_speed_mps: Speed
     name: Name | None = None
+
+    @cached_property
+    def corners(self) -> Floats:
+        """Its corners as an array [m], shape (n, 2); made once, for every time law asks.
+
+        Raises:
+            GeometryError: If the polygon is no area, e.g. as it crosses itself.
+        """
+        import shapely
+
+        area = shapely.Polygon(self.polygon)
+        if not area.is_valid or area.is_empty:
+            reason = shapely.is_valid_reason(area)
+            raise GeometryError(
+                f"the polygon of speed zone '{self.name or ''}' is no area: {reason}"
+            )
+        return np.array(self.polygon, dtype=np.float64)
 
 
 SpeedZones: TypeAlias = Annotated[

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-import shapely
-from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.timing.zone_pieces import zone_pieces
 from viaspline.mission.world_spec import SpeedZone
 
 ZONE_EDGE_M = 1e-6
@@ -51,7 +50,7 @@ def slow_parts(spans: Floats, zones: Sequence[SpeedZone]) -> list[tuple[float, f
         zones: Where the reference point of the robot has to be slower.
 
     Returns:
-        First and last parameter (span k runs from k to k + 1) and speed [m/s], in no order.
+        First and last parameter (span k runs from k to k + 1) and speed [m/s], zone by zone.
 
     Raises:
         GeometryError: For a curve of one dimension, or a polygon that is none.
@@ -66,70 +65,9 @@ def slow_parts(spans: Floats, zones: Sequence[SpeedZone]) -> list[tuple[float, f
         return []
     if spans.shape[2] < 2:
         raise GeometryError("a path of one dimension has no speed zones")
-    areas = np.array([_area(zone) for zone in zones], dtype=object)
-    wide = shapely.buffer(areas, ZONE_EDGE_M, join_style="mitre")
-    shapely.prepare(areas)
-    shapely.prepare(wide)
-    hulls = _hulls(spans[:, :, :2])
-    span, zone = (index.ravel() for index in np.indices((len(spans), len(zones))))
-    met = shapely.intersects(areas[zone], hulls[span])
-    span, zone = span[met], zone[met]
-    inside: list[tuple[Floats, Floats, NDArray[np.intp]]] = []
-    low, high, pieces = (
-        span.astype(np.float64),
-        span.astype(np.float64) + 1.0,
-        spans[span][:, :, :2],
+    areas = [zone.corners for zone in zones]
+    ends = np.cumsum([len(area) for area in areas])
+    found = zone_pieces(
+        np.ascontiguousarray(spans), np.concatenate(areas), ends, ZONE_EDGE_M, MAX_ZONE_HALVINGS
     )
-    for depth in range(MAX_ZONE_HALVINGS + 1):
-        hulls = _hulls(pieces)
-        taken = shapely.covers(wide[zone], hulls)
-        small = np.abs(np.diff(pieces, axis=1)).max(axis=(1, 2), initial=0.0) < 0.3 * ZONE_EDGE_M
-        taken |= shapely.intersects(areas[zone], hulls) & (small | (depth == MAX_ZONE_HALVINGS))
-        inside.append((low[taken], high[taken], zone[taken]))
-        go = ~taken & shapely.intersects(areas[zone], hulls)
-        if not go.any():
-            break
-        pieces, zone = _halved(pieces[go]), np.tile(zone[go], 2)
-        middle = 0.5 * (low[go] + high[go])
-        low, high = np.concatenate((low[go], middle)), np.concatenate((middle, high[go]))
-    return _merged(inside, zones)
-
-
-def _area(zone: SpeedZone) -> shapely.Polygon:
-    area = shapely.Polygon(zone.polygon)
-    if not area.is_valid or area.is_empty:
-        reason = shapely.is_valid_reason(area)
-        raise GeometryError(f"the polygon of speed zone '{zone.name or ''}' is no area: {reason}")
-    return area
-
-
-def _hulls(pieces: Floats) -> NDArray[np.object_]:
-    return np.asarray(shapely.convex_hull(shapely.linestrings(pieces)))
-
-
-def _halved(pieces: Floats) -> Floats:
-    """The first halves of pieces and then the second halves, by de Casteljau's construction."""
-    a = 0.5 * (pieces[:, 1:] + pieces[:, :-1])
-    b = 0.5 * (a[:, 1:] + a[:, :-1])
-    c = 0.5 * (b[:, 1] + b[:, 0])
-    first = np.stack((pieces[:, 0], a[:, 0], b[:, 0], c), axis=1)
-    second = np.stack((c, b[:, 1], a[:, 2], pieces[:, 3]), axis=1)
-    return np.concatenate((first, second))
-
-
-def _merged(
-    inside: Sequence[tuple[Floats, Floats, NDArray[np.intp]]], zones: Sequence[SpeedZone]
-) -> list[tuple[float, float, float]]:
-    """Pieces that touch as one part, zone by zone."""
-    low, high, zone = (np.concatenate(column) for column in zip(*inside, strict=True))
-    parts = []
-    for k, one in enumerate(zones):
-        order = np.argsort(low[zone == k])
-        starts, ends = low[zone == k][order], high[zone == k][order]
-        if not starts.size:
-            continue
-        new = np.flatnonzero(np.append(True, starts[1:] > ends[:-1]))
-        last = np.append(new[1:], starts.size) - 1
-        speed = float(one.max_speed_mps)
-        parts += [(float(starts[i]), float(ends[j]), speed) for i, j in zip(new, last, strict=True)]
-    return parts
+    return [(low, high, float(zones[int(k)].max_speed_mps)) for low, high, k in found.tolist()]

@@ -29,6 +29,7 @@ PARTS: Final = (
     "passive",
     "laps",
     "corridor",
+    "zones",
     "space",
 )
 """All that a mission can have that needs kernels of its own."""
@@ -87,6 +88,7 @@ def kind_of(mission: Mission, *, is_fleet: bool = False) -> MissionKind:
         "passive": robot.moving is not None,
         "laps": route.laps > 1,
         "corridor": route.corridor is not None,
+        "zones": bool(world.speed_zones),
     }
     if drive is not None:
         has |= {name: getattr(drive, name) is not None for name in PARTS[1:5]}

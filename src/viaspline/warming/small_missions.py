@@ -100,7 +100,11 @@ def _round(kind: MissionKind) -> Parts:
     ]
     if "moving" in kind.parts:
         known.append(_mover([3, 3], [3, -3], 3.0))
-    return {"bounds": [-2, -6, 24, 8], "known": known, "unseen": unseen}
+    world: Parts = {"bounds": [-2, -6, 24, 8], "known": known, "unseen": unseen}
+    if "zones" in kind.parts:
+        yard = {"polygon": [[7, -3], [11, -3], [11, 3], [7, 3]], "max_speed_mps": 0.6}
+        world["speed_zones"] = [yard]
+    return world
 
 
 def _mover(first: list[float], last: list[float], start: float) -> Parts:

@@ -37,7 +37,7 @@ def every_kind() -> Iterator[MissionKind]:
     names = (
         "plain", "space", "fleet", "lidar+differential+footprint",
         "fleet+ackermann+footprint+turning", "lidar", "lidar+map+passive", "ackermann+turning",
-        "moving+corridor", "localization+jerk+yaw+laps", "omnidirectional+map+moving",
+        "moving+corridor", "localization+jerk+yaw+laps+zones", "omnidirectional+map+moving",
         "skid_steer+footprint+corridor", "lidar+differential",
     )  # fmt: skip
     yield from map(kind_named, names)
