@@ -119,8 +119,9 @@ class MotionEstimate:
                 deviations [m/s per square root of s].
         """
         late, d = time - self.time, self.dimension
-        step = np.eye(2 * d) + late * np.eye(2 * d, k=d)
-        noise = np.kron([[late**3 / 3.0, late**2 / 2.0], [late**2 / 2.0, late]], np.eye(d))
+        ahead = np.eye(2 * d, k=d)
+        step = np.eye(2 * d) + late * ahead
+        noise = np.diag([late**3 / 3.0] * d + [late] * d) + late**2 / 2.0 * (ahead + ahead.T)
         covariance = step @ self.covariance @ step.T + wander**2 * noise
         return MotionEstimate(time, step @ self.mean, covariance)
 

@@ -116,6 +116,8 @@ class MovingObstacles(ComparedByValue):
         """Those from one to before another."""
         if begin == 0 and end >= len(self):
             return self
+        if begin >= min(end, len(self)):
+            return MovingObstacles()
         obstacles = self.obstacles[begin:end]
         packed = part_of_motion(self.packed, begin, end, pack_shapes(obstacles))
         return self._sound(obstacles, self.since[begin:end], packed)

@@ -6,6 +6,7 @@ Tested through ``world/test_moving_obstacles``.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from viaspline.kernels.motion.packed_motion import COLUMNS, PackedMotion
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.mission.motion_spec import Motion
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.world.pack import pack
 
 
@@ -25,30 +27,40 @@ def pack_motion(obstacles: Sequence[Obstacle], since: Sequence[float]) -> Packed
         obstacles: None of them a grid.
         since: When the place of each begins to get less certain [s].
     """
-    rows, rounds, errors, reaches, speeds = [], [], [], [], []
+    rows, rounds, errors, rings = [], [], [], []
     for obstacle, begin in zip(obstacles, since, strict=True):
         motion, ring = obstacle.motion, obstacle.ring
         assert motion is not None
         assert ring is not None
         pieces, period = _pieces(motion)
         rows.append(pieces)
+        rings.append(ring)
         rounds.append((0.0 if period == 0.0 else pieces[0, columns.BEGINS], period))
         errors.append((begin, motion.error.position_m, motion.error.growth_mps))
-        reach = float(np.hypot(*ring.vertices.T).max()) + ring.radius
-        reaches.append(reach)
-        straight = np.hypot(pieces[:, columns.SPEED_X], pieces[:, columns.SPEED_Y])
-        turning = reach * np.abs(pieces[:, columns.TURNING])
-        speeds.append(float((straight + turning).max()))
-    counts = [len(pieces) for pieces in rows]
+    first = np.array([0, *accumulate(map(len, rows))], np.int64)
+    pieces = np.concatenate(rows) if rows else np.empty((0, COLUMNS))
+    reaches = _reaches(rings)
+    straight = np.hypot(pieces[:, columns.SPEED_X], pieces[:, columns.SPEED_Y])
+    turning = np.repeat(reaches, np.diff(first)) * np.abs(pieces[:, columns.TURNING])
     return PackedMotion(
         pack_shapes(obstacles),
-        np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).astype(np.int64),
-        np.concatenate(rows) if rows else np.empty((0, COLUMNS)),
+        first,
+        pieces,
         np.array(rounds, np.float64).reshape(-1, 2),
         np.array(errors, np.float64).reshape(-1, 3),
-        np.array(reaches, np.float64),
-        np.array(speeds, np.float64),
+        reaches,
+        np.maximum.reduceat(straight + turning, first[:-1]) if rows else np.empty(0),
     )
+
+
+def _reaches(rings: Sequence[RoundedRing]) -> Floats:
+    """From each frame's origin to the farthest point of the shape in it [m], shape (n,)."""
+    corners = [[corner for loop in ring.loops for corner in loop] for ring in rings]
+    if not corners:
+        return np.empty(0)
+    begins = [0, *accumulate(map(len, corners))][:-1]
+    away = np.hypot(*np.array([corner for one in corners for corner in one], np.float64).T)
+    return np.maximum.reduceat(away, begins) + np.array([ring.radius for ring in rings])
 
 
 def pack_shapes(obstacles: Sequence[Obstacle]) -> PackedWorld:
@@ -112,37 +124,35 @@ def _pieces(motion: Motion) -> tuple[Floats, float]:
         return _between(frames), float(frames[-1, 0] - frames[0, 0])
     vanishes = motion.after == "vanish"
     absent = vanishes if motion.before is None else motion.before == "absent"
-    before = _standing(frames[:1], -np.inf, present=not absent)
-    after = _standing(frames[-1:], frames[-1, 0], present=not vanishes)
-    return np.concatenate((before, _between(frames), after)), 0.0
+    pieces = np.zeros((len(frames) + 1, COLUMNS))
+    pieces[1:-1] = _between(frames)
+    for row, frame, begins, present in (
+        (0, frames[0], -np.inf, not absent), (-1, frames[-1], frames[-1, 0], not vanishes)
+    ):  # fmt: skip
+        pieces[row, columns.BEGINS] = begins
+        pieces[row, columns.X : columns.HEADING + 1] = frame[1:]
+        pieces[row, columns.PRESENT] = float(present)
+    return pieces, 0.0
 
 
 def _frames(keyframes: Sequence[Sequence[float]]) -> Floats:
     """Time, x, y [m] and heading [rad] of keyframes, (k, 4)."""
-    frames = np.array([frame[:3] for frame in keyframes], np.float64)
-    headings = np.zeros(len(frames))
-    turned = np.array([k for k, frame in enumerate(keyframes) if len(frame) > 3], np.int64)
-    if turned.size:
+    frames = np.zeros((len(keyframes), 4))
+    frames[:, :3] = [frame[:3] for frame in keyframes]
+    turned = [k for k, frame in enumerate(keyframes) if len(frame) > 3]
+    if turned:
         said = np.deg2rad([keyframes[k][3] for k in turned])
         before = np.searchsorted(turned, np.arange(len(frames)), side="right") - 1
-        headings = np.where(before >= 0, said[before], 0.0)
-    return np.column_stack((frames, headings))
+        frames[:, 3] = np.where(before >= 0, said[before], 0.0)
+    return frames
 
 
 def _between(frames: Floats) -> Floats:
     """A piece from each frame to the next."""
-    rates = np.diff(frames[:, 1:], axis=0) / np.diff(frames[:, 0])[:, None]
+    steps = frames[1:] - frames[:-1]
+    rates = steps[:, 1:] / steps[:, :1]
     pieces = np.ones((len(rates), COLUMNS))
     pieces[:, columns.BEGINS] = pieces[:, columns.KNOWN] = frames[:-1, 0]
     pieces[:, columns.X : columns.HEADING + 1] = frames[:-1, 1:]
     pieces[:, columns.SPEED_X : columns.TURNING + 1] = rates
     return pieces
-
-
-def _standing(frame: Floats, begins: float, *, present: bool) -> Floats:
-    """A piece in which it stands at a frame (1, 4), or isn't there."""
-    piece = np.zeros((1, COLUMNS))
-    piece[0, columns.BEGINS] = begins
-    piece[0, columns.X : columns.HEADING + 1] = frame[0, 1:]
-    piece[0, columns.PRESENT] = float(present)
-    return piece

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.jit import inlined, inner, kernel
+from viaspline.kernels.jit import inlined, kernel, uncounted
 from viaspline.kernels.motion.packed_motion import (
     BEGINS,
     GROWTH,
@@ -93,16 +93,19 @@ def piece_distance(
     late = instant - shift - piece[KNOWN]
     dx = x - piece[X] - piece[SPEED_X] * late
     dy = y - piece[Y] - piece[SPEED_Y] * late
+    error = uncertainty(motion, i, instant)
+    far = limit + error + motion.reaches[i]  # from the frame's origin: no point of it is nearer
+    if far > 0.0 and dx * dx + dy * dy >= far * far:
+        return limit
     heading = piece[HEADING] + piece[TURNING] * late
     if heading != 0.0:
         c = math.cos(heading)
         s = math.sin(heading)
         dx, dy = c * dx + s * dy, c * dy - s * dx
-    error = uncertainty(motion, i, instant)
     return min(limit, obstacle_signed(motion.shapes, i, dx, dy, limit + error) - error)
 
 
-@inner
+@uncounted
 def moving_distance(
     motion: PackedMotion, i: int, instant: float, x: float, y: float, limit: float
 ) -> float:

@@ -53,9 +53,9 @@ def give_way(
     if 0 < kept < len(APART_M) and not goes_on:
         return Decision(schedule)
     context = ReplanContext.of(task, progress, knowledge, schedule)
-    tried = []
+    tried, free = [], _free_law(context)
     for apart in APART_M[: max(kept, 1)]:
-        tried.append(_Waiting.of(replace(context, task=replace(task, apart=apart))))
+        tried.append(_Waiting.of(replace(context, task=replace(task, apart=apart)), free))
         if tried[-1].schedule is not None:
             break
     if tried[0].late <= PATIENCE_S:
@@ -65,7 +65,7 @@ def give_way(
     if decision is None and kept < len(APART_M):
         decision = Decision(replace(schedule, timed_at=progress.time))
     if decision is None:
-        decision = out_of_the_way(context, tried[-1].free, paths)
+        decision = out_of_the_way(context, free, paths)
     return replace(decision, schedule=replace(decision.schedule, next_way=next_way))
 
 
@@ -84,8 +84,8 @@ class _Waiting:
     schedule: Schedule | None
 
     @classmethod
-    def of(cls, context: ReplanContext) -> _Waiting:
-        return cls(context, _free_law(context), _on_path(context))
+    def of(cls, context: ReplanContext, free: Trajectory) -> _Waiting:
+        return cls(context, free, _on_path(context))
 
     @property
     def ends(self) -> float:

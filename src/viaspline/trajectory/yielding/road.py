@@ -1,7 +1,4 @@
-"""A path as it is looked at among things that move: chords, a tree over them, and legs.
-
-Tested through ``trajectory/yielding/test_law_among``.
-"""
+"""A path as it is looked at among things that move: chords, and a tree over them."""
 
 from __future__ import annotations
 
@@ -13,6 +10,7 @@ import numpy as np
 from viaspline.curve.bending import curvature_bound
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.timing.yielding.chord_ends import chord_ends
 from viaspline.kernels.timing.yielding.path_tree import PathTree, path_tree
 
 CHORD_MISS_M = 0.0002
@@ -39,8 +37,7 @@ class Road:
     def of(cls, path: PiecewiseCubic) -> Road:
         """The chords of a path, the shorter the more it bends where they are."""
         bend = float(curvature_bound(path)[0])
-        u = np.linspace(*path.domain, len(path.spans) + 1)
-        return cls(path, bend, _in_chords(path, np.asarray(path.distance(u), dtype=np.float64)))
+        return cls(path, bend, _in_chords(path))
 
     @property
     def length(self) -> float:
@@ -64,18 +61,11 @@ class Road:
         return np.asarray(self.path.at_distance(distances), dtype=np.float64)[:, :2]
 
 
-def _in_chords(path: PiecewiseCubic, along: Floats) -> PathTree:
-    """The chords between some distances along a path [m], (n + 1,), halved where it bends."""
+def _in_chords(path: PiecewiseCubic) -> PathTree:
+    """The chords between the joints of a path, the shorter the more it bends."""
     least = max(MIN_CHORD_M, path.length / MAX_CHORDS)
-    points = np.asarray(path.at_distance(along), dtype=np.float64)[:, :2]
-    while True:
-        arcs = np.diff(along)
-        chords = np.minimum(np.hypot(*np.diff(points, axis=0).T), arcs)
-        misses = np.sqrt(0.25 * (arcs**2 - chords**2) + (arcs - chords) ** 2)
-        bent = np.flatnonzero((misses > CHORD_MISS_M) & (arcs > least))
-        if not bent.size:
-            return path_tree(along, np.ascontiguousarray(points))
-        middles = 0.5 * (along[bent] + along[bent + 1])
-        between = np.asarray(path.at_distance(middles), dtype=np.float64)[:, :2]
-        along = np.insert(along, bent + 1, middles)
-        points = np.insert(points, bent + 1, between, axis=0)
+    begin, end = path.domain
+    ends = chord_ends(np.ascontiguousarray(path.spans), CHORD_MISS_M, least)
+    u = np.minimum(begin + ends * ((end - begin) / len(path.spans)), end)
+    along = np.asarray(path.distance(u), dtype=np.float64)
+    return path_tree(along, np.ascontiguousarray(np.asarray(path.evaluate(u))[:, :2]))
