@@ -94,6 +94,18 @@ def test_a_search_without_time_stops_the_robot_where_it_is_clear_and_then_finds_
     assert run.speeds[(run.times > 5.0) & (run.times < run.times[-1] - 5.0)].min() == 0.0
 
 
+def test_a_robot_that_has_searched_at_rest_for_all_it_may_says_what_helps(
+    mission_of: Make, disc_at: Shape, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("STEP_WORK_S", "STANDING_WORK_S", "MAX_STANDING_WORK_S"):
+        monkeypatch.setattr(deadline, name, 1e-4)
+    run = simulate(mission_of([0, 0], [50, 0], unseen=[disc_at(25, 0.3, 2, "rock")]))
+    assert not run.reached
+    assert run.reason is not None
+    assert "plan anew from where it stands" in run.reason
+    assert "max_replan_s" not in run.reason  # that is how long it searches under way
+
+
 def test_a_robot_brakes_when_its_time_to_search_is_up(
     mission_of: Make, disc_at: Shape, monkeypatch: pytest.MonkeyPatch
 ) -> None:

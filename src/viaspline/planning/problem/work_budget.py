@@ -189,7 +189,7 @@ class WorkBudget:
             raise SpentBudgetError(
                 "the search was stopped: its time was up",
                 where=(),
-                remedy="give it more time by robot.max_replan_s",
+                remedy="let it go on in the steps to come, or plan anew: a plan has no such limit",
                 tried=(f"what can be tried in {self.limit:.3g} s",),
             )
         self.spent += cost

@@ -44,6 +44,14 @@ MAX_STANDING_WORK_S = 6.4
 """What a robot that stands spends on a search in all. A step in which not even a part of it was
 over is followed by one that may spend twice as much."""
 
+SPENT_AT_REST = (
+    f"stands and has found no way on in the {MAX_STANDING_WORK_S:g} s of work that a search at rest "
+    "may take; plan anew from where it stands with what it has seen (Navigator.world), for a plan "
+    "has no such limit, or lead it by a via point"
+)
+"""Why it gives up then, and what helps: its search under way was over before, whatever
+``max_replan_s`` had been."""
+
 
 def with_time_to_search(context: ReplanContext) -> ReplanContext:
     """The robot with what this step may spend on its search, and committed to its path for that.

@@ -16,7 +16,12 @@ from viaspline.kernels.arrays import Floats
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.reschedule import braking_at_once, rescheduled
 from viaspline.robot.navigation.schedule import Schedule
-from viaspline.robot.replanning.deadline import gone_on, last_place, must_brake
+from viaspline.robot.replanning.deadline import (
+    SPENT_AT_REST,
+    gone_on,
+    last_place,
+    must_brake,
+)
 from viaspline.robot.replanning.path_candidate import PathCandidate
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult
@@ -76,7 +81,7 @@ def keep_searching(context: ReplanContext, result: ReplanResult) -> Decision:
     held_at = context.stop if must_brake(context) else min(last_place(context), before.held_at)
     pending = gone_on(context, result.begin_with, held_at, result.doubt)
     if pending is None:
-        return stop_for_good(context, str(result.refusal))
+        return stop_for_good(context, SPENT_AT_REST)
     held = replace(schedule, pending=pending, held_at=held_at)
     held = rescheduled(context.task, context.progress, context.knowledge, held, context.speed)
     if before.pending is not None or context.speed == 0.0:
