@@ -60,7 +60,8 @@ def _reaches(rings: Sequence[RoundedRing]) -> Floats:
         return np.empty(0)
     begins = [0, *accumulate(map(len, corners))][:-1]
     away = np.hypot(*np.array([corner for one in corners for corner in one], np.float64).T)
-    return np.maximum.reduceat(away, begins) + np.array([ring.radius for ring in rings])
+    reaches: Floats = np.maximum.reduceat(away, begins) + [ring.radius for ring in rings]
+    return reaches
 
 
 def pack_shapes(obstacles: Sequence[Obstacle]) -> PackedWorld:

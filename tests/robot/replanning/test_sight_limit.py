@@ -12,10 +12,15 @@ import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from viaspline.curve.cardinal import CardinalSpline
+from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.navigation.law_past import spans_until
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.simulator import simulate
+from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.retime import retime
 
 Make = Callable[..., Mission]
 Shape = Callable[..., dict[str, Any]]
@@ -129,3 +134,33 @@ def test_it_is_never_faster_than_lets_it_stop_inside_of_what_it_has_seen(
         ways = [np.hypot(*(unseen - place[:2]).T) for place in poses]
         driven = np.min(ways, axis=0) if len(unseen) else np.zeros(0)
         assert np.all(driven <= 0.3 + 1e-6), (tick, unseen)
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(deadline=None, max_examples=60)
+def test_a_law_to_a_place_is_the_same_on_the_spans_up_to_there_as_on_all_of_the_path(
+    seed: int,
+) -> None:
+    rng = np.random.default_rng(seed)
+    points = np.cumsum(rng.normal(0, 5, (int(rng.integers(4, 30)), 2)), axis=0)
+    path = Path(CardinalSpline(points, knots="centripetal").spans, vias=[])
+    start, end = np.sort(rng.uniform(0.0, path.length, 2)).tolist()
+    limits = Limits(max_speed=1.5, max_accel=1.0, max_lateral_accel=0.8)
+    stops = [Station(0.5 * (start + end), 1.0), Station(end)]
+    part, kept = spans_until(path, stops, end)
+    law = retime(path, limits, stops, start=start).until(end)
+    same = retime(part, limits, kept, start=start).until(end)
+    assert law.times.tobytes() == same.times.tobytes()
+    assert law.distances.tobytes() == same.distances.tobytes()
+    assert law.speeds.tobytes() == same.speeds.tobytes()
+
+
+def test_a_law_within_sight_asks_for_no_more_spans_than_lead_there() -> None:
+    path = Path(np.array([line(10.0 * k) for k in range(100)]), vias=[])
+    counts = [len(spans_until(path, [], end)[0].spans) for end in (5.0, 10.0, 25.0, 999.0)]
+    assert counts == [1, 2, 3, 100]
+
+
+def line(start: float) -> list[list[float]]:
+    """A straight span of 10 m."""
+    return [[start + 10.0 * k / 3.0, 0.0] for k in range(4)]

@@ -5,6 +5,7 @@ Tested through ``robot/yielding/test_give_way``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from viaspline.curve.path import Path
@@ -72,6 +73,18 @@ def _unexplained(_: Unserved) -> GaveUp:
         "another path",
         reason="no law was found on this path among what moves",
     )
+
+
+def spans_until(path: Path, stops: Sequence[Station], end: float) -> tuple[Path, Sequence[Station]]:
+    """The spans of a path up to the joint behind a distance [m], and the stops on them.
+
+    They are whole, so a law to rest at that distance is the same on them as on all of the path.
+    """
+    joint = math.floor(float(path.parameter(end))) + 1.0
+    if joint >= path.domain[1]:
+        return path, stops
+    part = Path(path.section(0.0, joint).spans, [])
+    return part, [stop for stop in stops if stop.distance < part.length]
 
 
 def part_until(path: Path, stops: Sequence[Station], end: float) -> tuple[Path, Sequence[Station]]:

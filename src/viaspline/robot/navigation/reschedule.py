@@ -25,7 +25,7 @@ from viaspline.robot.navigation.law_horizon import (
     reach_ahead,
     renewed_at,
 )
-from viaspline.robot.navigation.law_past import law_past, part_until
+from viaspline.robot.navigation.law_past import law_past, part_until, spans_until
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
 from viaspline.trajectory.limits import Station
@@ -233,7 +233,7 @@ def _timed(
 ) -> Trajectory:
     """The trajectory of a part of a path, to rest at its end.
 
-    Where laws are dear, and on a round, it costs no more than the part.
+    It costs no more than the part, and where laws are cheap than the spans before it.
 
     Args:
         task: What is asked of the drive.
@@ -255,12 +255,14 @@ def _timed(
             path, distance, end, task.limits, stops, zones=zones, slow=schedule.slow,
             start_speed=speed, start_accel=accel, start_time=time, replaces=schedule.trajectory,
         )  # fmt: skip
-    timed = path
-    if schedule.is_round and end < path.length:
-        timed, stops = part_until(path, stops, end)
+    timed, ends_here = path, end >= path.length
+    if not ends_here:
+        cut = part_until if schedule.is_round else spans_until
+        timed, stops = cut(path, stops, end)
+        ends_here = schedule.is_round
     trajectory = retime(
         timed, task.limits, stops, zones=zones, slow=schedule.slow,
         start=min(distance, timed.length), start_speed=speed, start_accel=accel, start_time=time,
         replaces=schedule.trajectory,
     )  # fmt: skip
-    return trajectory if timed is not path or end >= path.length else trajectory.until(end)
+    return trajectory if ends_here else trajectory.until(end)

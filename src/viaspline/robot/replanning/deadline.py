@@ -45,9 +45,9 @@ MAX_STANDING_WORK_S = 6.4
 over is followed by one that may spend twice as much."""
 
 SPENT_AT_REST = (
-    f"stands and has found no way on in the {MAX_STANDING_WORK_S:g} s of work that a search at rest "
-    "may take; plan anew from where it stands with what it has seen (Navigator.world), for a plan "
-    "has no such limit, or lead it by a via point"
+    f"stands and has found no way on in the {MAX_STANDING_WORK_S:g} s of work that a search at "
+    "rest may take; plan anew from where it stands with what it has seen (Navigator.world), for a "
+    "plan has no such limit, or lead it by a via point"
 )
 """Why it gives up then, and what helps: its search under way was over before, whatever
 ``max_replan_s`` had been."""
