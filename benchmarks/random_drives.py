@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 
@@ -49,12 +49,13 @@ ROBOTS: dict[str, dict] = {
 """By family: the body, the drive and its limits."""
 
 
-def drives(count: int, seed: int) -> Iterator[tuple[str, vs.Mission]]:
+def drives(count: int, seed: int, parts: Collection[str] = ()) -> Iterator[tuple[str, vs.Mission]]:
     """So many random drives that have a plan, the families in turn.
 
     Args:
         count: How many.
         seed: Of all that is random.
+        parts: What all of them have besides; see ``with_parts``.
 
     Yields:
         The family, and the mission.
@@ -62,7 +63,41 @@ def drives(count: int, seed: int) -> Iterator[tuple[str, vs.Mission]]:
     families = list(ROBOTS)
     for k in range(count):
         family = families[k % len(families)]
-        yield family, _mission(family, np.random.default_rng((seed, k)))
+        mission = _mission(family, np.random.default_rng((seed, k)))
+        yield family, with_parts(mission, parts, np.random.default_rng((seed, k, 77)))
+
+
+def with_parts(
+    mission: vs.Mission, parts: Collection[str], random: np.random.Generator
+) -> vs.Mission:
+    """A drive with parts that few have: a ``lidar``, a limit of the ``jerk``, ``yaw`` limits,
+    speed ``zones``; the same where there are none.
+
+    With any, there is a limit of the jerk only if it is among them.
+    """
+    if not parts:
+        return mission
+    data = mission.model_dump(exclude_none=True, exclude_defaults=True, mode="json")
+    robot = data["robot"]
+    robot.pop("max_jerk_mps3", None)
+    if "lidar" in parts:
+        reach, fov = float(random.uniform(3, 8)), float(random.choice([120.0, 270, 360]))
+        robot["sensor"] = {"lidar": {"range_m": reach, "fov_deg": fov}}
+    if "jerk" in parts:
+        robot["max_jerk_mps3"] = float(random.uniform(0.5, 3))
+    if "yaw" in parts:
+        for key in ("max_yaw_rate_degps", "max_yaw_accel_degps2"):
+            robot[key] = float(random.uniform(20, 90))
+    if "zones" in parts:
+        data["world"]["speed_zones"] = [_random_zone(random) for _ in range(6)]
+    return vs.Mission.model_validate(data)
+
+
+def _random_zone(random: np.random.Generator) -> dict:
+    middle, size = random.uniform(0, FIELD_M, 2), random.uniform(2, 8, 2)
+    corners = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
+    polygon = [(middle + size * corner).tolist() for corner in corners]
+    return {"polygon": polygon, "max_speed_mps": float(random.uniform(0.3, 0.8))}
 
 
 def _mission(family: str, random: np.random.Generator) -> vs.Mission:

@@ -1,9 +1,10 @@
 """How long a step of the navigator takes, over random drives of every kind of robot.
 
-    pip install ".[bench]" && python benchmarks/steps.py [DRIVES [SEED]]
+    pip install ".[bench]" && python benchmarks/steps.py [DRIVES [SEED [PART ...]]]
 
 Counted is the processor's time of every ``Navigator.step`` with all kernels warm. A step of a robot
-that stands may take longer: nothing happens to it meanwhile, so it may search on with more. An
+that stands may take longer: nothing happens to it meanwhile, so it may search on with more. With
+parts (``lidar``, ``jerk``, ``yaw``, ``zones``) all drives have these besides. An
 interrupt ends it with what was measured by then.
 """
 
@@ -12,6 +13,7 @@ from __future__ import annotations
 import sys
 import time
 from collections import defaultdict
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 
@@ -62,15 +64,15 @@ def row(name: str, steps: Steps) -> str:
     )
 
 
-def main(count: int, seed: int) -> None:
+def main(count: int, seed: int, parts: Sequence[str]) -> None:
     compile_curves()
     compile_driving()
-    _, (_, first), *_ = drives(3, seed)
+    _, (_, first), *_ = drives(3, seed, parts)
     vs.simulate(first)  # what is left to be compiled
     tables: dict[str, Steps] = defaultdict(Steps)
     refused = 0
     with suppress(KeyboardInterrupt):
-        for k, (family, mission) in enumerate(drives(count, seed)):
+        for k, (family, mission) in enumerate(drives(count, seed, parts)):
             sensor = "lidar" if mission.robot.sensor.lidar else "range sensor"
             jerk = [] if mission.robot.max_jerk_mps3 is None else ["limit of the jerk"]
             into = [tables[name] for name in (family, sensor, *jerk, "all")]
@@ -94,5 +96,5 @@ def main(count: int, seed: int) -> None:
 
 
 if __name__ == "__main__":
-    arguments = [int(argument) for argument in sys.argv[1:]]
-    main(*(arguments + [200, 1][len(arguments) :]))
+    numbers = [int(argument) for argument in sys.argv[1:3]]
+    main(*(numbers + [200, 1][len(numbers) :]), sys.argv[3:])
