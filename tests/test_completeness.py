@@ -186,6 +186,69 @@ def test_a_robot_wider_than_a_cell_passes_wherever_the_grown_cells_leave_a_way(
     check(known, cores, bounds, required, ends, bool(is_open))
 
 
+def rooms_with_doors(random: np.random.Generator) -> tuple[list[dict[str, Any]], float, float]:
+    """Rooms of 6 m, doors in most of their walls, some a little too narrow for the robot.
+
+    Returns:
+        The walls, what the robot keeps from them, and how wide the world is [m].
+    """
+    aside, rooms, half = 6.0, int(random.integers(2, 5)), float(random.choice((0.05, 0.15)))
+    required = float(random.uniform(0.15, 0.6))
+    walls: list[dict[str, Any]] = []
+
+    def wall(flipped: bool, across: float, begin: float, end: float) -> None:
+        box = [(begin, across - half), (end, across - half), (end, across + half),
+               (begin, across + half)]  # fmt: skip
+        walls.append({"polygon": [[y, x] if flipped else [x, y] for x, y in box]})
+
+    for i, j, flipped in np.ndindex(rooms, rooms - 1, 2):
+        begin, across = aside * i, aside * (j + 1)
+        wider = float(random.choice((-1, 1, 1))) * 10 ** random.uniform(-2.5, -0.3)
+        door = max(2.0 * required + wider, 0.05)
+        left = float(random.uniform(0.3, aside - door - 0.3))
+        if random.random() < 0.2:
+            wall(bool(flipped), across, begin, begin + aside)
+        else:
+            wall(bool(flipped), across, begin, begin + left)
+            wall(bool(flipped), across, begin + left + door, begin + aside)
+    return walls, required, aside * rooms
+
+
+def concave_rings(random: np.random.Generator) -> tuple[list[dict[str, Any]], float, float]:
+    """Stars with deep notches, over each other here and there; see ``rooms_with_doors``."""
+    width, rings = 30.0, []
+    for _ in range(int(random.integers(5, 30))):
+        corners = int(random.integers(5, 14))
+        angles = np.sort(random.uniform(0, math.tau, corners))
+        far = random.uniform(0.3, random.uniform(1.0, 5.0), corners)
+        ring = random.uniform(0, width, 2) + (far * np.array((np.cos(angles), np.sin(angles)))).T
+        if shapely.Polygon(ring).is_valid and shapely.Polygon(ring).area > 0.05:
+            rings.append({"polygon": ring.tolist()})
+    return rings, float(random.uniform(0.1, 0.9)), width
+
+
+@settings(max_examples=20)
+@given(
+    seeds,
+    st.sampled_from((rooms_with_doors, concave_rings)),
+    st.sampled_from((0.1, 1.0, 5.0)),
+    st.sampled_from((0.0, 0.13)),
+)
+def test_worlds_of_any_size_that_their_bounds_may_cut_are_passed_where_there_is_a_way(
+    seed: int, made: Any, scale: float, cut: float
+) -> None:
+    random = np.random.default_rng(seed)
+    obstacles, required, width = made(random)
+    known = [{"polygon": (scale * np.array(one["polygon"])).tolist()} for one in obstacles]
+    required, width = scale * required, scale * width
+    bounds, cores = (cut * width, 0.0, width, (1.0 - cut) * width), [core_of(one) for one in known]
+    ends = roomy_places(random, cores, bounds, required + SPARE_M)
+    assume(len(ends) == 2)
+    is_open = truth(cores, bounds, required, ends)
+    assume(is_open is not None)
+    check(known, cores, bounds, required, ends, bool(is_open))
+
+
 def thin_walls(random: np.random.Generator, width: float) -> list[dict[str, Any]]:
     """Walls of a few millimetres to centimetres, and discs, at any angle."""
     obstacles: list[dict[str, Any]] = []
@@ -207,7 +270,7 @@ def thin_walls(random: np.random.Generator, width: float) -> list[dict[str, Any]
     return obstacles
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(seeds, st.floats(0.05, 0.8))
 def test_a_way_between_thin_walls_is_found_wherever_the_grown_walls_leave_one(
     seed: int, required: float
