@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.routing.line_runs import line_runs
 from viaspline.world.world import World
 
 FINEST = 0.125  # piece of the line that is not looked into any further, in required distances
@@ -34,24 +35,8 @@ def blocked_runs(world: World, start: Floats, goal: Floats, required: float) -> 
         [[45.0, 55.0]]
     """
     length = float(np.hypot(*(goal - start)))
-    found = [np.empty((0, 2))]
-    pieces = np.array([[0.0, length]]) if length > 0.0 else found[0]
-    along = (goal - start) / max(length, 1e-300)
-    while len(pieces):
-        half = 0.5 * (pieces[:, 1] - pieces[:, 0])
-        middle = 0.5 * (pieces[:, 0] + pieces[:, 1])
-        room = world.distance(start + middle[:, None] * along) - required
-        is_blocked = room < -half
-        is_unsettled = ~is_blocked & (room < half)
-        is_small = 2.0 * half <= FINEST * required
-        found.append(pieces[is_blocked | (is_unsettled & is_small)])
-        split = is_unsettled & ~is_small
-        low, high, middle = pieces[split, 0], pieces[split, 1], middle[split]
-        pieces = np.vstack((np.column_stack((low, middle)), np.column_stack((middle, high))))
-    blocked = np.vstack(found)
-    blocked = blocked[np.argsort(blocked[:, 0])]
-    if not len(blocked):
-        return blocked
-    gaps = np.flatnonzero(blocked[1:, 0] > blocked[:-1, 1])
-    first, last = np.append(0, gaps + 1), np.append(gaps, len(blocked) - 1)
-    return np.column_stack((blocked[first, 0], blocked[last, 1]))
+    if length == 0.0:
+        return np.empty((0, 2))
+    along, finest = (goal - start) / length, FINEST * required
+    found: Floats = line_runs(world.packed, start, along, length, required, finest)
+    return found
