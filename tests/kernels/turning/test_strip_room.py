@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import viaspline as vs
-from viaspline.kernels.turning.bent_strip import strip_spans
 from viaspline.kernels.turning.strip_room import strip_room
+from viaspline.kernels.turning.strip_spans import strip_spans
 
 
 @pytest.mark.parametrize("off", [-2.5, -2.2, 2.2, 3.0])
@@ -18,7 +18,8 @@ def test_a_place_may_go_as_far_as_it_keeps_clear(off: float) -> None:
     normals = np.tile([0.0, 1.0], (4, 1))
     low, high = np.full(4, -np.inf), np.full(4, np.inf)
     reach, rooms = np.empty(4), np.empty(4)
-    strip_room(world.packed, places, normals, strip_spans(places), 1.0, low, high, reach, rooms)
+    spans = strip_spans(places, normals, np.full((2, 2), np.nan), False)
+    strip_room(world.packed, places, normals, spans, 1.0, low, high, reach, rooms)
     room = abs(off) - 2.0
     assert rooms[1:3] == pytest.approx(room)
     assert (reach > 0.0).all()

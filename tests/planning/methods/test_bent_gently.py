@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 import pytest
 import shapely
 
 import viaspline as vs
+from viaspline.kernels.curve.measure import bending
 from viaspline.planning.methods.bent_gently import BentGently
-from viaspline.planning.turning.gentler_path import bending
 
 KEPT = 1.0
 
 
-def mission(seed: int, **route: object) -> vs.Mission:
+def mission(seed: int, speed: float = 2.0, **route: object) -> vs.Mission:
     random = np.random.default_rng((77, seed))
     discs = [
         {"circle": {"center": random.uniform((10, -12), (90, 12)).tolist(), "radius": radius}}
@@ -21,7 +23,7 @@ def mission(seed: int, **route: object) -> vs.Mission:
     ]
     return vs.Mission.model_validate({
         "world": {"known": discs},
-        "robot": {"radius_m": 0.6, "clearance_m": 0.4, "max_speed_mps": 2, "max_accel_mps2": 1},
+        "robot": {"radius_m": 0.6, "clearance_m": 0.4, "max_speed_mps": speed, "max_accel_mps2": 1},
         "route": {"start": [0, 0], "via": [[50, 20]], "goal": [100, 0], "detours": "short"} | route,
     })  # fmt: skip
 
@@ -40,7 +42,7 @@ def test_paths_bend_less_take_hardly_longer_and_keep_all_that_they_kept(
     for seed in range(6):
         asked = mission(seed)
         turns, plan = without(monkeypatch, asked), vs.plan(asked)
-        before, after = bending(turns.path.spans), bending(plan.path.spans)
+        before, after = bending(turns.path.spans)[0], bending(plan.path.spans)[0]
         saved.append(1.0 - after / before)
         assert after <= before
         assert plan.trajectory.duration <= 1.004 * turns.trajectory.duration
@@ -73,13 +75,90 @@ def test_a_curve_past_two_discs_is_that_of_least_bending() -> None:
     assert np.diff(half).min() > -0.02 * peak
 
 
-@pytest.mark.parametrize(
-    "route",
-    [{"start": {"at": [0, 0], "heading_deg": 30}}, {"optimise": "length"}, {"closed": True}],
-)
+@pytest.mark.parametrize("route", [{"optimise": "length"}, {"spline": True}])
 def test_paths_that_are_not_bent_are_as_they_were(
     monkeypatch: pytest.MonkeyPatch, route: dict[str, object]
 ) -> None:
-    closing = {"goal": None} if "closed" in route else {}
-    asked = mission(3, **route, **closing)
+    asked = mission(3, **{key: value for key, value in route.items() if key != "spline"})
+    if "spline" in route:
+        asked = asked.model_copy(update={"spline": asked.spline.model_copy(update={"tension": 0})})
     np.testing.assert_array_equal(without(monkeypatch, asked).path.spans, vs.plan(asked).path.spans)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_given_headings_are_kept_straight_and_the_path_between_bends_less(
+    monkeypatch: pytest.MonkeyPatch, seed: int
+) -> None:
+    ends = {
+        "start": {"at": [0, 0], "heading_deg": 40},
+        "goal": {"at": [100, 0], "heading_deg": -30},
+    }
+    asked = mission(seed, **ends)
+    turns, plan = without(monkeypatch, asked), vs.plan(asked)
+    assert bending(plan.path.spans)[0] < 0.98 * bending(turns.path.spans)[0]
+    path = plan.path
+    for u, heading in ((0.0, 40.0), (float(len(path.spans)), -30.0)):
+        along = np.radians(heading)
+        np.testing.assert_allclose(path.tangent(u), (np.cos(along), np.sin(along)), atol=1e-9)
+        assert abs(path.curvature(u)) < 1e-7
+    assert path.curvature_jumps().max() < 1e-6
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_round_bends_less_and_goes_on_at_its_seam_without_a_jump(
+    monkeypatch: pytest.MonkeyPatch, seed: int
+) -> None:
+    asked = mission(seed, speed=6.0, via=[[50, 20], [100, 0]], goal=None, closed=True)
+    turns, plan = without(monkeypatch, asked), vs.plan(asked)
+    path, last = plan.path, float(len(plan.path.spans))
+    assert bending(path.spans)[0] < 0.98 * bending(turns.path.spans)[0]
+    assert plan.trajectory.duration <= 1.004 * turns.trajectory.duration
+    np.testing.assert_allclose(path.tangent(0.0), path.tangent(last), atol=1e-9)
+    assert path.curvature(0.0) == pytest.approx(path.curvature(last), abs=1e-7)
+    assert path.evaluate(last).tolist() == path.evaluate(0.0).tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_lanes_stay_as_they_were_and_what_leaves_them_bends_less(
+    monkeypatch: pytest.MonkeyPatch, closed: bool
+) -> None:
+    ends: dict[str, object] = {"via": [[300, 0], [300, 200]], "goal": None if closed else [0, 200]}
+    asked = vs.Mission.model_validate({
+        "world": {"known": [
+            {"circle": {"center": [150, 1], "radius": 4}},
+            {"circle": {"center": [298, 100], "radius": 5}},
+        ]},
+        "robot": {"radius_m": 0.6, "clearance_m": 0.4, "max_speed_mps": 2, "max_accel_mps2": 1},
+        "route": {"start": [0, 0], "detours": "local", "closed": closed} | ends,
+    })  # fmt: skip
+    turns, plan = without(monkeypatch, asked).path, vs.plan(asked).path
+    assert bending(plan.spans)[0] < 0.995 * bending(turns.spans)[0]
+    kept = {spans.tobytes() for spans in plan.spans}
+    long = [spans for spans in turns.spans if np.hypot(*(spans[3] - spans[0])) > 50.0]
+    assert len(long) >= 4
+    assert all(spans.tobytes() in kept for spans in long)
+    assert plan.curvature_jumps().max() < 1e-6
+
+
+def test_no_turn_gets_sharper_that_has_to_be_slowed_down_for_unless_it_is_sooner(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for seed, speed in product(range(4), (2.0, 6.0)):
+        asked = mission(seed, speed=speed, via=[[50, 20], [20, -15], [80, -15]])
+        turns, plan = without(monkeypatch, asked), vs.plan(asked)
+        is_sooner = plan.trajectory.duration < turns.trajectory.duration
+        fast = 1.0 / speed**2  # what may be driven at full speed
+        least = max(bending(turns.path.spans)[1], fast)
+        assert is_sooner or bending(plan.path.spans)[1] <= 1.002 * least
+
+
+def test_where_corners_cost_time_a_path_that_bends_less_is_driven_sooner(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    saved = []
+    for seed in range(6):
+        asked = mission(seed, speed=6.0, via=[[50, 20], [20, -15], [80, -15]])
+        turns, plan = without(monkeypatch, asked), vs.plan(asked)
+        saved.append(1.0 - plan.trajectory.duration / turns.trajectory.duration)
+    assert min(saved) > -0.004
+    assert np.median(saved) > 0.01

@@ -1,4 +1,4 @@
-"""Length and largest curvature of Bézier spans, for comparing candidates.
+"""Length, bending and largest curvature of Bézier spans, for comparing candidates.
 
 Tested through ``kernels/world/test_distance``.
 """
@@ -38,6 +38,34 @@ def length_and_curvature(spans: Floats) -> tuple[float, float]:
         for k in range(CURVATURE_SAMPLES + 1):
             sharpest = max(sharpest, _curvature(spans, span, k / CURVATURE_SAMPLES))
     return length, sharpest
+
+
+@kernel
+def bending(spans: Floats) -> tuple[float, float]:
+    """How much spans bend in the plane.
+
+    Args:
+        spans: Bézier control polygons [m], (m, 4, d).
+
+    Returns:
+        The integral of the squared curvature [1/m], and the largest curvature of a few samples of
+        each span [1/m].
+    """
+    total, sharpest = 0.0, 0.0
+    for span in range(spans.shape[0]):
+        for node in range(NODES.size):
+            w = 0.5 * (1.0 + NODES[node])
+            slope = 0.0
+            for axis in range(2):
+                a = spans[span, 1, axis] - spans[span, 0, axis]
+                b = spans[span, 2, axis] - spans[span, 1, axis]
+                c = spans[span, 3, axis] - spans[span, 2, axis]
+                slope += (3.0 * ((1 - w) * ((1 - w) * a + 2 * w * b) + w * w * c)) ** 2
+            curvature = _curvature(spans, span, w)
+            total += 0.5 * WEIGHTS[node] * curvature * curvature * math.sqrt(slope)
+            sharpest = max(sharpest, curvature)
+        sharpest = max(sharpest, _curvature(spans, span, 0.0), _curvature(spans, span, 1.0))
+    return total, sharpest
 
 
 @inner

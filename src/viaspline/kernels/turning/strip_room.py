@@ -10,7 +10,7 @@ from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 
 SAMPLES = 6  # about a place, from half-way to the one before to half-way to the one after
-REACH = 8.0  # in required distances: farther off, nothing is looked for
+REACH = 16.0  # in required distances: farther off, nothing is looked for
 FINER_ROUNDS, FINER = 4, 0.3  # of looking for the least distance; of the step from one to the next
 NEAR = 1.2  # in required distances: where it is looked for so
 FAR = 4.0  # of that: farther off need not be told apart
@@ -41,12 +41,24 @@ def _gap(world: PackedWorld, spans: Floats, at: float, limit: float) -> float:
 
 @inner
 def _least_about(
-    world: PackedWorld, spans: Floats, j: int, gap: float, near: float
+    world: PackedWorld, spans: Floats, j: int, gap: float, steps: tuple[float, float], near: float
 ) -> tuple[float, float]:  # fmt: skip
-    """The least distance about place j [m], and the parameter where it is: exact if it is near."""
-    least, at = gap, float(j)
+    """The least distance about place j [m], and the parameter where it is: exact if it is near.
+
+    Args:
+        world: What stands there.
+        spans: The curve through the places [m], (n - 1, 4, 2).
+        j: The place.
+        gap: Distance from there [m].
+        steps: From the place before and to the one after [m].
+        near: Less than that is near [m].
+    """
+    least, at, middle = gap, float(j), gap
     for i in range(SAMPLES + 1):
-        here = j - 0.5 + i / SAMPLES
+        off = i / SAMPLES - 0.5
+        if middle - abs(off) * (steps[0] if off < 0.0 else steps[1]) > near:
+            continue  # whatever is there, it isn't near
+        here = j + off
         gap = _gap(world, spans, here, least)
         if gap < least:
             least, at = gap, here
@@ -96,12 +108,13 @@ def strip_room(
                 places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
             )  # fmt: skip
         half = 0.5 * max(before, after)
-        before = after
         gap, _ = nearest(world, places[j, 0], places[j, 1], half + REACH * kept)
         rooms[j], reach[j] = gap - kept, max(gap - half, LEAST_REACH * kept)
         if rooms[j] > half:
+            before = after
             continue
-        gap, at = _least_about(world, spans, j, gap, NEAR * kept)
+        gap, at = _least_about(world, spans, j, gap, (before, after), NEAR * kept)
+        before = after
         x, y = _on_strip(spans, at)
         nx, ny = normals[j]
         further, _ = nearest(world, x + PROBE_M * nx, y + PROBE_M * ny, gap + kept)

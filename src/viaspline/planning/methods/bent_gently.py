@@ -11,6 +11,11 @@ from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.gentler_path import gentler_path
 
+MOST_RIVALS = 2  # that are bent
+NEAR_TIED = 1.005  # what a rival costs, over what the best does: it may be the best when bent
+LIKELY_SAVED = 0.5  # more of it than of the best is saved by bending, of what that saved
+LEAST_GAIN = 1e-6  # of what a path costs, for which another is taken
+
 
 @dataclass(frozen=True)
 class BentGently:
@@ -23,12 +28,21 @@ class BentGently:
     method: Method[DrivenProblem, SplinePath]
 
     def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Outcome[SplinePath]:
-        """See ``Method``. It costs what was laid: what is gentler is not weighed with others."""
+        """See ``Method``. Rivals that cost little more are bent as well: the best so is taken."""
         outcome = self.method.lay(problem, bound)
         if not isinstance(outcome, Found):
             return outcome
+        best, limit = outcome.value, math.inf
+        cost, laid_cost = outcome.cost, outcome.cost
         try:
-            gentle = gentler_path(problem, outcome.value)
+            for rival_cost, laid in ((outcome.cost, outcome.value), *outcome.rivals[:MOST_RIVALS]):
+                if rival_cost > limit:
+                    break
+                gentle = gentler_path(problem, laid)
+                bent_cost = rival_cost if gentle is None else problem.cost(gentle)
+                if laid is outcome.value or bent_cost < (1.0 - LEAST_GAIN) * cost:
+                    best, cost = gentle or laid, bent_cost
+                limit = max(NEAR_TIED * laid_cost, laid_cost + LIKELY_SAVED * (laid_cost - cost))
         except SpentBudgetError:  # there is a path, and no time left to bend it
-            return outcome
-        return outcome if gentle is None else replace(outcome, value=gentle)
+            pass
+        return replace(outcome, value=best, cost=cost, rivals=())

@@ -43,13 +43,18 @@ class OtherSides:
         if not isinstance(outcome, Found):
             return outcome
 
+        known = [(outcome.cost, outcome.value)]
+
         def attempt(row: TautRow, bound: float) -> Attempt[SplinePath]:
             choices = problem.bends_along(row.taut_paths)
             first = next(choices)
             if not problem.is_promising(first, bound):
                 return Attempt(None)
             laid = problem.turns_along(row.taut_paths, chain((first,), choices))
-            return Attempt(laid, () if laid is None else _other_rows(problem, row, laid))
+            if laid is None:
+                return Attempt(None)
+            known.append((problem.cost(laid), laid))
+            return Attempt(laid, _other_rows(problem, row, laid))
 
         try:
             rows = list(_other_rows(problem, problem.shortest_row, outcome.value))
@@ -58,7 +63,8 @@ class OtherSides:
         most = max(MAX_LAID // max(len(problem.bends.rows), 1) ** 2, 1)
         best = cheapest_laid(rows, attempt, DrivenPrice(problem), outcome.value, most)
         assert best is not None  # there was one to begin with
-        return Found(best, problem.cost(best))
+        rivals = sorted((one for one in known if one[1] is not best), key=lambda one: one[0])
+        return Found(best, problem.cost(best), rivals=tuple(rivals))
 
 
 def _other_rows(problem: DrivenProblem, row: TautRow, laid: SplinePath) -> Iterator[TautRow]:

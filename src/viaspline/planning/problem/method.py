@@ -29,11 +29,13 @@ class Found(Generic[Value]):
         cost: What it costs, in what the problem asks to have little of [m or s].
         is_settled: Whether no other method need be asked. Where it is not, a better one may be
             found by one of them.
+        rivals: Others that were found on the way, each with what it costs, the cheapest first.
     """
 
     value: Value
     cost: float
     is_settled: bool = True
+    rivals: tuple[tuple[float, Value], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,7 @@ def first_settled(
         ...     def lay(self, problem: int, bound: float = math.inf) -> Outcome[int]:
         ...         return Found(problem // 2, 1.0) if problem % 2 == 0 else GaveUp(("halves",))
         >>> first_settled([Guess()], 4)
-        Found(value=2, cost=1.0, is_settled=True)
+        Found(value=2, cost=1.0, is_settled=True, rivals=())
         >>> first_settled([Guess(), Guess()], 5).tried
         ('halves', 'halves')
     """

@@ -33,8 +33,8 @@ PROOF_S, PROOF_SPAN_S, PROOF_BODY_S = 3e-4, 2e-6, 1.5e-3
 TURN_PATH_S, TURN_PATH_BEND_S = 5e-5, 2e-5
 """Of a turn path: in all, and for each bend [s]."""
 
-STRIP_S = 2e-3
-"""To bend a path less, as a strip under tension [s]."""
+STRIP_S, STRIP_SPAN_S = 2e-3, 5e-5
+"""To bend a run of a path less, as a strip under tension: in all, and for each of its spans [s]."""
 
 HEADING_PAIR_BEND_S, HEADING_PAIR_BENDS_S = 1.2e-5, 1e-6
 """Of the length of a leg between two headings, for each bend, and for each pair of bends [s]."""

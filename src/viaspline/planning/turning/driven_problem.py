@@ -30,6 +30,7 @@ from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, LegBends, bends_along, bends_of_legs
 from viaspline.planning.turning.end_turns import soonest_end_turns
 from viaspline.planning.turning.laid_turns import through_spans, through_turns
+from viaspline.planning.turning.lane import Lane
 from viaspline.planning.turning.lane_stays import LegLane
 from viaspline.planning.turning.local_detours import LANE_REACHES, LaneTurns, local_bends
 from viaspline.planning.turning.repair import clear_turn_path
@@ -238,6 +239,14 @@ class DrivenProblem(PathProblem):
     def keeps_lanes(self) -> bool:
         """Whether there is a leg on its shortest way that is to keep to its line, or get to it."""
         return any(self._shortest_local)
+
+    @property
+    def kept_lanes(self) -> tuple[Lane | None, ...]:
+        """The line that each leg keeps to on its shortest way, or gets to; None without one."""
+        return tuple(
+            None if bends is None else Lane.of(self.sequence.whole_leg(leg))
+            for leg, bends in enumerate(self._shortest_local)
+        )
 
     def bends_along(self, taut_paths: Sequence[TautPath]) -> Iterator[RowBends]:
         """The bends of legs along taut paths, those first that keep most to the lines of vias."""

@@ -1,4 +1,4 @@
-"""A path that bends less than lines and turns, where a part of the length buys that.
+"""A path that bends less than lines and turns, where a part of the time buys that.
 
 Tested through ``planning/methods/test_bent_gently``.
 """
@@ -7,76 +7,114 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.curve.measure import bending
+from viaspline.planning.checking.driving_time import driving_time
 from viaspline.planning.problem.spline_path import SplinePath
-from viaspline.planning.problem.work_budget import STRIP_S
+from viaspline.planning.problem.work_budget import STRIP_S, STRIP_SPAN_S
+from viaspline.planning.turning.bendable_run import BendableRun, LaidRun, RunsOfPath
+from viaspline.planning.turning.driven_price import DrivenPrice
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.gentle_strip import GENTLE_SHARE, gentle_strip
+from viaspline.planning.turning.gentle_strip import gentle_strip
 from viaspline.planning.turning.laid_turns import through_spans
+from viaspline.planning.turning.tension_search import GENTLE_SHARE, RunPrice
 
-LEAST_GENTLER = 0.02  # of the bending, that has to be saved
+LEAST_RUN = 4.0  # of a run that has room to bend less, in required distances
 STRAIGHT = 1e-9  # bending times length, of what need not bend less
 TIME_KNOWN = 1e-3  # of a driven time: it is known so well
-SAME_WAY = 1.02  # length of a path over that of the shortest taut one, which it may go along
-JUMP_RAD = 1e-6  # of a heading between spans, that is one
-SAMPLES = np.array([0.1127016653792583, 0.5, 0.8872983346207417])  # Gauss-Legendre of 3 points
-WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
+SHARPER = 1e-3  # by which a path is no sharper yet: as well as that is known
+BESIDE_LANE = 0.5  # it, at most, a straight span lies on it, in required distances
+STRAIGHT_SPAN = 1e-7  # by which a straight one's controls are off, in required distances
 
 
 def gentler_path(problem: DrivenProblem, laid: SplinePath) -> SplinePath | None:
     """A clear path on the same sides that bends less; None where there is none.
 
-    That is for a disc whose path is chosen by time, and for no path that keeps to the lines
-    between via points, has given headings, or comes back to its start.
+    That is for a disc whose path is chosen by time. Lines between via points that it keeps to stay
+    as they are, and so do headings that are given. No turn becomes sharper that the robot has to
+    slow down for, unless that is sooner.
 
     Args:
         problem: What is to be driven.
         laid: A path that serves it.
     """
-    if not _may_be_bent(problem, laid):
+    if not _may_be_bent(problem):
         return None
-    problem.requirements.spend(STRIP_S)
-    flat, shortest = np.ascontiguousarray(laid.spans[:, :, :2]), problem.shortest_row.length
-    length, before = laid.length, bending(flat)
-    if before * length < STRAIGHT:
+    path = _in_runs(problem, laid)
+    least = DrivenPrice(problem).least(problem.shortest_row) if len(path.runs) == 1 else None
+    bent = [None if run.stays else _gentler_run(problem, run, least) for run in path.runs]
+    if all(one is None for one in bent):
         return None
-    taut = shortest if length <= SAME_WAY * shortest else length / (1.0 + GENTLE_SHARE)
-    strip = gentle_strip(flat, laid.joints, problem.world, problem.requirements.required, taut)
-    if strip is None or bending(strip.spans) > (1.0 - LEAST_GENTLER) * before:
-        return None
-    detours = strip.touches.tolist()
-    found = through_spans(problem.sequence, strip.spans, strip.joints, detours)
+    whole = path.joined([one or run.laid for one, run in zip(bent, path.runs, strict=True)])
+    found = through_spans(
+        problem.sequence, whole.spans, whole.joints, whole.detours.tolist()
+    )  # fmt: skip
     latest = (1.0 + GENTLE_SHARE + TIME_KNOWN) * problem.cost(laid)
-    if not problem.is_drivable(strip.spans) or not problem.keeps_sides(found):
+    if not problem.keeps_sides(found) or problem.cost(found) > latest:
         return None
-    return found if problem.cost(found) <= latest else None
+    return found
 
 
-def _may_be_bent(problem: DrivenProblem, laid: SplinePath) -> bool:
-    needs, sequence = problem.requirements, problem.sequence
-    if needs.footprint is not None or not needs.objective.is_time or needs.has_own_tension:
-        return False
-    has_headings = sequence.start_tangent is not None or sequence.end_tangent is not None
-    if has_headings or sequence.closed or problem.keeps_lanes:
-        return False
-    along = laid.spans[1:, 1, :2] - laid.spans[1:, 0, :2]
-    before = laid.spans[:-1, 3, :2] - laid.spans[:-1, 2, :2]
-    across = before[:, 0] * along[:, 1] - before[:, 1] * along[:, 0]
-    return bool((np.abs(np.arctan2(across, (before * along).sum(axis=1))) < JUMP_RAD).all())
+def _may_be_bent(problem: DrivenProblem) -> bool:
+    needs = problem.requirements
+    return needs.footprint is None and needs.objective.is_time and not needs.has_own_tension
 
 
-def bending(spans: Floats) -> float:
-    """The integral of the squared curvature along planar spans (m, 4, 2) [1/m].
+def _in_runs(problem: DrivenProblem, laid: SplinePath) -> RunsOfPath:
+    """A path in the runs that may be bent each by itself, without heights."""
+    sequence, at_vias = problem.sequence, set(laid.joints.tolist())
+    detours = [int(via.u) for via in laid.vias if via.u not in at_vias]
+    planar = LaidRun(
+        np.ascontiguousarray(laid.spans[:, :, :2]), laid.joints, np.array(detours, np.int64)
+    )
+    stands = np.array([sequence.stands(k) for k in range(len(laid.joints))])
+    given = sequence.start_tangent is not None, sequence.end_tangent is not None
+    return RunsOfPath.of(planar, _on_lanes(problem, laid), stands, given, sequence.closed)
 
-    Example:
-        >>> line = np.array([[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]])
-        >>> bending(line)
-        0.0
+
+def _on_lanes(problem: DrivenProblem, laid: SplinePath) -> Flags:
+    """Which spans of a path lie straight on the lines that their legs are to keep to, (m,)."""
+    found: Flags = np.zeros(len(laid.spans), np.bool_)
+    required = problem.requirements.required
+    for leg, lane in enumerate(problem.kept_lanes):
+        if lane is not None:
+            left = lane.seen(laid.leg(leg))[..., 1]
+            is_beside = np.abs(left).max(axis=1) < BESIDE_LANE * required
+            bend = np.abs(np.diff(left, 2, axis=1)).max(axis=1)
+            first, last = laid.joints[leg], laid.joints[leg + 1]
+            found[first:last] = is_beside & (bend < STRAIGHT_SPAN * required)
+    return found
+
+
+def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) -> LaidRun | None:
+    """A run bent less; None where it can't be.
+
+    Args:
+        problem: What is to be driven.
+        run: The run.
+        least: The least time in which it can be driven [s]; None: it is to take no longer than now.
     """
-    a, b, c = np.moveaxis(3.0 * np.diff(spans, axis=1), 1, 0)[..., None]
-    w, v = SAMPLES, 1.0 - SAMPLES
-    first = v * v * a + 2.0 * v * w * b + w * w * c
-    second = 2.0 * (v * (b - a) + w * (c - b))
-    speed = np.hypot(first[:, 0], first[:, 1])
-    cross = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
-    return float((WEIGHTS * cross**2 / speed**5).sum())
+    before, sharpest = bending(run.laid.spans)
+    is_short = run.length < LEAST_RUN * problem.requirements.required
+    if is_short or before * run.length < STRAIGHT:
+        return None
+    problem.requirements.spend(STRIP_S + STRIP_SPAN_S * len(run.laid.spans))
+    pace, stands = problem.requirements.objective.pace, run.stands
+
+    def time(spans: Floats, joints: Ints) -> float:
+        rests = np.zeros(len(spans) + 1, np.bool_)
+        rests[joints] = stands
+        return driving_time(spans, pace, rests)
+
+    now = time(run.laid.spans, run.laid.joints)
+    price = RunPrice(time, now, before, now / (1.0 + GENTLE_SHARE) if least is None else least)
+    bent = gentle_strip(run, problem.world, problem.requirements.required, price)
+    if bent is None:
+        return None
+    peak = bending(bent.spans)[1]
+    fast = 1.0 / pace.widest_radius if pace.widest_radius > 0.0 else 0.0
+    is_sharper = peak > (1.0 + SHARPER) * max(sharpest, fast)
+    is_round = peak * problem.requirements.outer_radius <= 1.0
+    if is_sharper and not (is_round and time(bent.spans, bent.joints) <= (1.0 - TIME_KNOWN) * now):
+        return None
+    return bent if problem.is_drivable(bent.spans) else None

@@ -1,0 +1,159 @@
+"""The spline through the places of a strip, for each kind of ends that a strip may have.
+
+An end is free, and nothing bends it; or its direction is given, where another curve goes on without
+a bend: then it leads there without one, for which the place beside it gives way a little. A round
+goes on at its end where it begins.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inner, kernel
+
+STRAIGHT = 1e-11  # of what an end bends on its first step: it doesn't [rad]
+MAX_ROUNDS = 8
+PROBE = 1e-3  # of a step, by which a place is moved to see what that changes
+
+
+@inner
+def _tangents(places: Floats, steps: Floats, ends: Floats, tangents: Floats, above: Floats) -> None:
+    """The spline's derivatives by its parameter at places; where none is given at an end, free."""
+    count = places.shape[0]
+    for j in range(count):
+        low, diagonal, high = 0.0, 0.0, 0.0
+        for axis in range(2):
+            tangents[j, axis] = 0.0
+        is_given = (j == 0 and not math.isnan(ends[0, 0])) or (
+            j == count - 1 and not math.isnan(ends[1, 0])
+        )
+        if is_given:
+            above[j] = 0.0
+            for axis in range(2):
+                tangents[j, axis] = ends[min(j, 1), axis]
+            continue
+        for i in (j - 1, j):
+            if 0 <= i < count - 1:
+                per = 1.0 / steps[i]
+                diagonal += 2.0 * per
+                for axis in range(2):
+                    tangents[j, axis] += 3.0 * per * per * (places[i + 1, axis] - places[i, axis])
+        if j > 0:
+            low = 1.0 / steps[j - 1]
+            diagonal -= low * above[j - 1]
+        if j < count - 1:
+            high = 1.0 / steps[j]
+        above[j] = high / diagonal
+        for axis in range(2):
+            if j > 0:
+                tangents[j, axis] -= low * tangents[j - 1, axis]
+            tangents[j, axis] /= diagonal
+    for j in range(count - 2, -1, -1):
+        for axis in range(2):
+            tangents[j, axis] -= above[j] * tangents[j + 1, axis]
+
+
+@inner
+def _steps(places: Floats, steps: Floats) -> None:
+    for j in range(steps.size):
+        dx, dy = places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
+        steps[j] = math.hypot(dx, dy)
+
+
+@inner
+def _bent_at(places: Floats, steps: Floats, tangents: Floats, end: int, axis: int) -> float:
+    """The second derivative at an end, 0 the first and 1 the last, along an axis [1/m]."""
+    if end == 0:
+        rise, step = places[1, axis] - places[0, axis], steps[0]
+        return 6.0 * rise / step**2 - (4.0 * tangents[0, axis] + 2.0 * tangents[1, axis]) / step
+    last = places.shape[0] - 1
+    rise, step = places[last - 1, axis] - places[last, axis], steps[last - 1]
+    return (
+        6.0 * rise / step**2 + (4.0 * tangents[last, axis] + 2.0 * tangents[last - 1, axis]) / step
+    )
+
+
+@inner
+def _round(places: Floats, steps: Floats, tangents: Floats, above: Floats) -> None:
+    """The tangents of a round: that at its seam from what its second derivative jumps by there."""
+    ends, jumps, last = np.zeros((2, 2)), np.zeros(2), places.shape[0] - 1
+    _tangents(places, steps, ends, tangents, above)
+    for axis in range(2):
+        jumps[axis] = _bent_at(places, steps, tangents, 0, axis)
+        jumps[axis] -= _bent_at(places, steps, tangents, 1, axis)
+    for axis in range(2):
+        ends[0, axis], ends[1, axis] = 1.0, 1.0
+    _tangents(places, steps, ends, tangents, above)
+    for axis in range(2):
+        jump = _bent_at(places, steps, tangents, 0, axis)
+        jump -= _bent_at(places, steps, tangents, 1, axis)
+        ends[0, axis] = ends[1, axis] = jumps[axis] / (jumps[axis] - jump)
+    _tangents(places, steps, ends, tangents, above)
+    for axis in range(2):
+        tangents[last, axis] = tangents[0, axis]
+
+
+@inner
+def _straight_ends(
+    places: Floats, normals: Floats, steps: Floats, ends: Floats, tangents: Floats, above: Floats
+) -> None:  # fmt: skip
+    """Move the places beside given ends along their normals until nothing bends there."""
+    count = places.shape[0]
+    bent, moved = np.zeros(2), np.zeros(2)
+    for rounds in range(MAX_ROUNDS):
+        _steps(places, steps)
+        _tangents(places, steps, ends, tangents, above)
+        worst = 0.0
+        for end in range(2):
+            if math.isnan(ends[end, 0]):
+                continue
+            place, step = (1, steps[0]) if end == 0 else (count - 2, steps[count - 2])
+            here = ends[end, 0] * _bent_at(places, steps, tangents, end, 1)
+            here -= ends[end, 1] * _bent_at(places, steps, tangents, end, 0)
+            worst = max(worst, abs(here) * step)
+            change = here - bent[end]
+            move = PROBE * step
+            if rounds > 0:
+                move = -here * moved[end] / change if change != 0.0 else 0.0
+            bent[end], moved[end] = here, move
+        if worst < STRAIGHT:
+            break
+        for end in range(2):
+            if not math.isnan(ends[end, 0]):
+                place = 1 if end == 0 else count - 2
+                for axis in range(2):
+                    places[place, axis] += moved[end] * normals[place, axis]
+
+
+@kernel
+def strip_spans(places: Floats, normals: Floats, ends: Floats, closed: bool) -> Floats:
+    """The cubic spline through places, its parameter their distances.
+
+    Args:
+        places: [m], none at the place of the one before, (n, 2); those beside given ends are moved
+            so that it doesn't bend there.
+        normals: Along which they are, (n, 2).
+        ends: Directions in which it leaves the first place and comes to the last, unit vectors, nan
+            where it is free, (2, 2).
+        closed: Whether it is a round, whose last place is its first; its ends are not looked at.
+
+    Returns:
+        Bézier control polygons (n - 1, 4, 2) [m]; their curvature is continuous, and none at ends.
+    """
+    count = places.shape[0]
+    steps, tangents, above = np.empty(count - 1), np.empty((count, 2)), np.empty(count)
+    if closed:
+        _steps(places, steps)
+        _round(places, steps, tangents, above)
+    else:
+        _straight_ends(places, normals, steps, ends, tangents, above)
+    spans = np.empty((count - 1, 4, 2))
+    for j in range(count - 1):
+        for axis in range(2):
+            spans[j, 0, axis], spans[j, 3, axis] = places[j, axis], places[j + 1, axis]
+            spans[j, 1, axis] = places[j, axis] + steps[j] / 3.0 * tangents[j, axis]
+            spans[j, 2, axis] = places[j + 1, axis] - steps[j] / 3.0 * tangents[j + 1, axis]
+    return spans

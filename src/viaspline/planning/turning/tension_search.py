@@ -1,0 +1,159 @@
+"""The search for the least tension at which a strip takes hardly longer than it must.
+
+The less tension, the less it bends and the longer it is. Where the robot drives corners at full
+speed, longer is later; where it slows down for them, wide turns are sooner up to a point.
+
+Tested through ``planning/methods/test_bent_gently``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.planning.turning.tense_strip import TenseStrip
+
+GENTLE_SHARE = 2e-3  # of the time, that may be spent
+LEAST_GENTLER = 0.02  # of the bending, that has to be saved
+FIRST, LEAST_OVER = 0.1, 0.5  # of that at which what was laid would be a strip; see ``first``
+STEPPED = 10.0  # at most, of the tension from one that is tried to the next, where that is foretold
+LOOSENED = 4.0  # where it isn't
+NEAR_TENSION = 1.5  # of one that is too loose, at which the least that isn't is near enough
+MOSTLY_SPENT = 0.7  # of what may be: enough of it
+
+
+@dataclass(frozen=True)
+class RunPrice:
+    """What a run of a path may be exchanged for.
+
+    Attributes:
+        time_of: The time in which spans (m, 4, 2) [m] are driven [s], via points at joints (n,).
+        time: That of what was laid [s].
+        bending: Of what was laid [1/m].
+        least: No run on the same sides takes less time [s].
+    """
+
+    time_of: Callable[[Floats, Ints], float]
+    time: float
+    bending: float
+    least: float
+
+    def is_gentler(self, bending: float) -> bool:
+        """Whether a run with a bending [1/m] bends less than what was laid."""
+        return bending < (1.0 - LEAST_GENTLER) * self.bending
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A strip at a tension.
+
+    Attributes:
+        tension: [1/m²].
+        strip: It.
+        time: In which it is driven [s].
+        bending: Of it [1/m].
+    """
+
+    tension: float
+    strip: TenseStrip
+    time: float
+    bending: float
+
+
+@dataclass(frozen=True)
+class TensionSearch:
+    """What is known so far.
+
+    Attributes:
+        price: What the run may be exchanged for.
+        tried: The tensest last.
+    """
+
+    price: RunPrice
+    tried: tuple[Tried, ...] = ()
+
+    def having(self, one: Tried) -> TensionSearch:
+        """With one more that was tried."""
+        return replace(self, tried=tuple(sorted((*self.tried, one), key=lambda one: one.tension)))
+
+    @property
+    def first(self) -> float:
+        """The tension to begin with, times the length of what was laid [1/m].
+
+        The bending of a strip that bends freely round a corner is its tension times what it is
+        longer than the corner.
+        """
+        over = max(self.price.time - self.price.least, LEAST_OVER * GENTLE_SHARE * self.price.time)
+        return FIRST * self.price.bending * self.price.time / over
+
+    @cached_property
+    def chosen(self) -> Tried | None:
+        """The least tension that takes no more than may be spent, if there is one."""
+        return next((one for one in self._gentler if self._spent(one) <= 1.0), None)
+
+    @property
+    def following(self) -> tuple[TenseStrip, float] | None:
+        """With what to begin at which tension next; None where there is no need to."""
+        chosen, gentler = self.chosen, self._gentler
+        if not gentler:
+            return self.tried[0].strip, self.tried[0].tension / LOOSENED
+        if chosen is None or (chosen is gentler[-1] and self._may_be_sooner_tense):
+            return self._tenser(gentler[-1])
+        return self._looser(chosen)
+
+    @cached_property
+    def _gentler(self) -> tuple[Tried, ...]:
+        return tuple(one for one in self.tried if self.price.is_gentler(one.bending))
+
+    @cached_property
+    def _known(self) -> float:
+        """What times are held against [s]: the least, if one is near it, else the least known."""
+        best = min([self.price.time, *(one.time for one in self._gentler)])
+        return self.price.least if best <= (1.0 + GENTLE_SHARE) * self.price.least else best
+
+    def _spent(self, one: Tried) -> float:
+        """Of what may be."""
+        return (one.time / self._known - 1.0) / GENTLE_SHARE
+
+    @property
+    def _may_be_sooner_tense(self) -> bool:
+        """Whether a tenser one may be sooner by much: a looser one is later by much."""
+        gentler = self._gentler
+        is_late = self._known > self.price.least
+        return len(gentler) > 1 and is_late and self._spent(gentler[-2]) > 1.0
+
+    def _tenser(self, tensest: Tried) -> tuple[TenseStrip, float] | None:
+        """Tenser than the tensest that bends less, less tense than what bends more."""
+        tenser = [one for one in self.tried if one.tension > tensest.tension]
+        if tenser and self.chosen is not None:
+            return self._looser(self.chosen)
+        if tenser:
+            between = tenser[0].tension / tensest.tension
+            is_near = between < NEAR_TENSION
+            return None if is_near else (tensest.strip, tensest.tension * math.sqrt(between))
+        over = (tensest.time / self.price.least - 1.0) / GENTLE_SHARE
+        return tensest.strip, tensest.tension * min(max(over * over, LOOSENED), STEPPED)
+
+    def _looser(self, chosen: Tried) -> tuple[TenseStrip, float] | None:
+        """Between what is chosen and what is too loose, or looser yet if that saves bending."""
+        spent = self._spent(chosen)
+        if spent > MOSTLY_SPENT:
+            return None
+        looser = [one for one in self.tried if one.tension < chosen.tension]
+        if looser:
+            between = chosen.tension / looser[-1].tension
+            is_near = between < NEAR_TENSION or _saves_little(chosen, looser[-1])
+            return None if is_near else (chosen.strip, chosen.tension / math.sqrt(between))
+        tenser = [one for one in self._gentler if one.tension > chosen.tension]
+        if tenser and _saves_little(tenser[0], chosen):
+            return None
+        is_late = self._known > self.price.least
+        step = LOOSENED if is_late else min(1.0 / max(spent, 1e-6) ** 2, STEPPED)
+        return chosen.strip, chosen.tension / step
+
+
+def _saves_little(one: Tried, looser: Tried) -> bool:
+    return one.bending < (1.0 + LEAST_GENTLER) * looser.bending
