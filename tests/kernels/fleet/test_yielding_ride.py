@@ -15,8 +15,8 @@ from straight_fleets import (
     courses_on,
     crossings_on,
     lines_without_rests_in_the_way,
+    nearest_two,
     no_laws,
-    places_at,
     rides_on,
 )
 
@@ -36,21 +36,6 @@ def timed(
     passages = passages_of(courses, crossings)
     found = timed_in_order(courses, crossings, passages, rides, laws, np.arange(len(lines)))
     return courses, rides, laws, found.tolist()
-
-
-def nearest_two(courses: PackedCourses, laws: PackedLaws) -> float:
-    """The least distance between any two robots, every 10 ms."""
-    last = laws.arrive[courses.first[1:] - 1].max()
-    times = np.arange(-1.0, last + 1.0, 0.01)
-    places = [places_at(courses, laws, r, times) for r in range(courses.reach.size)]
-    return min(
-        (
-            float(np.hypot(*(places[i] - places[j]).T).min())
-            for i in range(len(places))
-            for j in range(i)
-        ),
-        default=np.inf,
-    )
 
 
 @pytest.mark.long_without_jit

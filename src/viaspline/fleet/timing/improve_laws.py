@@ -55,9 +55,11 @@ def improve_laws(
     passages = passages_of(courses.packed, crossings.packed)
     fixed = sorted({*timing.blocked, *settled})
     search = LawSearch.of(courses, crossings, passages, rides, priorities, fixed)
-    spent, work = 0, int(seconds * WORK_PER_S)
+    spent, work, rounds = 0, int(seconds * WORK_PER_S), 0
     while spent < work:
-        spent += search.look(laws, min(work - spent, int(ROUND_S * WORK_PER_S)))
+        look = search.look if rounds % 2 else search.turn  # each finds what the other one doesn't
+        spent += look(laws, min(work - spent, int(ROUND_S * WORK_PER_S)))
+        rounds += 1
         if progress is not None:
             progress(min(spent / work, 1.0))
     return replace(timing, laws=FleetLaws(laws))

@@ -14,9 +14,11 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet.first_come_laws import first_come_laws
 from viaspline.kernels.fleet.improved_laws import improved_laws
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
+from viaspline.kernels.fleet.turned_orders import turned_orders
 
 SEED = 1
 """Of the random numbers of a search."""
@@ -68,6 +70,20 @@ class LawSearch:
         state = np.array([SEED], np.int64)
         return cls(courses, crossings, passages, rides, weight, movable, state)
 
+    def first_come(self, laws: PackedLaws) -> int:
+        """Give all that may be changed their laws at once: who comes first passes first.
+
+        Args:
+            laws: Of those that may not; written to.
+
+        Returns:
+            How many nodes and passages were looked at.
+        """
+        return first_come_laws(
+            self.courses.packed, self.crossings.packed, self.passages, self.rides.packed, laws,
+            self.weight, self.movable,
+        )  # fmt: skip
+
     def look(self, laws: PackedLaws, work: int) -> int:
         """Make laws better, in place.
 
@@ -79,6 +95,21 @@ class LawSearch:
             How many were.
         """
         return improved_laws(
+            self.courses.packed, self.crossings.packed, self.passages, self.rides.packed, laws,
+            self.rides.alone, self.weight, self.movable, work, self.state,
+        )  # fmt: skip
+
+    def turn(self, laws: PackedLaws, work: int) -> int:
+        """Make laws sooner by letting robots pass before those that they wait for, in place.
+
+        Args:
+            laws: Clear of each other; all that may be changed have one.
+            work: How many nodes and passages may be looked at.
+
+        Returns:
+            How many were.
+        """
+        return turned_orders(
             self.courses.packed, self.crossings.packed, self.passages, self.rides.packed, laws,
             self.rides.alone, self.weight, self.movable, work, self.state,
         )  # fmt: skip

@@ -1,4 +1,4 @@
-"""The laws of a fleet along fixed paths: one robot after the other, each as early as it can."""
+"""The laws of a fleet along fixed paths: by who comes first to each crossing, or by priority."""
 
 from __future__ import annotations
 
@@ -46,12 +46,13 @@ def time_paths(
     left_out: Sequence[int] = (),
     given: FleetLaws | None = None,
 ) -> Timing:
-    """Time robots along their paths by priority, and by the orders that are forced.
+    """Time robots along their paths, by priority where they meet and by orders that are forced.
 
-    Among equals those with the longer way come first. For a robot that can't let others pass some
-    of these are timed anew, after it. Where that doesn't help, it is timed before the one that it
-    can't let pass, and all from the beginning. Where no path passes another's start or resting
-    place, every robot is served.
+    Among equals the one that would be held up longer passes first. For robots that would wait for
+    each other in a circle some others are timed anew, after them. Where that doesn't help, robots
+    are timed one after the other, those of high priority and with long ways first, and each before
+    the one that it can't let pass. Where no path passes another's start or resting place, every
+    robot is served.
 
     Args:
         courses: Their paths.
@@ -64,13 +65,20 @@ def time_paths(
     given = standing_laws(courses) if given is None else given
     settled = [*left_out, *np.flatnonzero(given.packed.is_timed).tolist()]
     passages = passages_of(courses.packed, crossings.packed)
+    search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
+    laws = copied_laws(given.packed)
+    laws.is_timed[list(left_out)] = True
+    search.first_come(laws)
+    best = _given_laws(search, laws)
+    if not best.blocked:
+        return best
     asked = forced_orders(courses.packed, passages, rides.packed.vanishes)
     ranks = [(-p, -t) for p, t in zip(priorities, rides.alone.tolist(), strict=True)]
     found = _timed(courses, crossings, passages, rides, asked, ranks, left_out, given)
     if not found.blocked:
         return found
-    search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
-    best, idle = _given_laws(search, found), 0
+    given_more, idle = _given_laws(search, found.laws.packed), 0
+    best = min(best, given_more, key=lambda one: len(one.blocked))
     while best.blocked and idle < MAX_IDLE:
         learned = [(robot, other) for robot, other in found.blocked.items() if other not in settled]
         pairs = np.unique(
@@ -86,9 +94,9 @@ def time_paths(
     return best
 
 
-def _given_laws(search: LawSearch, timing: Timing) -> Timing:
-    """A timing in which others are timed anew for those that are blocked, as far as that helps."""
-    given = copied_laws(timing.laws.packed)
+def _given_laws(search: LawSearch, laws: PackedLaws) -> Timing:
+    """A timing in which others are timed anew for those without a law, as far as that helps."""
+    given = copied_laws(laws)
     courses, passages = search.courses.packed, search.passages
     work = RIDES_EACH * (courses.distance.size + passages.other.size) // given.is_timed.size
     served, idle = 0, 0
@@ -96,11 +104,19 @@ def _given_laws(search: LawSearch, timing: Timing) -> Timing:
         search.look(given, work)
         idle = 0 if given.is_timed.sum() > served else idle + 1
         served = int(given.is_timed.sum())
-    left = np.flatnonzero(~given.is_timed)
+    return Timing(FleetLaws(given), _who_is_in_the_way(search, given))
+
+
+def _who_is_in_the_way(search: LawSearch, laws: PackedLaws) -> dict[int, int]:
+    """Time those that have no law yet after all others; whom the rest of them can't let pass."""
+    left = np.flatnonzero(~laws.is_timed)
+    if not left.size:
+        return {}
     boxes = timed_in_order(
-        courses, search.crossings.packed, passages, search.rides.packed, given, left
-    )
-    return Timing(FleetLaws(given), _in_the_way(search.crossings, left, boxes))
+        search.courses.packed, search.crossings.packed, search.passages, search.rides.packed,
+        laws, left,
+    )  # fmt: skip
+    return _in_the_way(search.crossings, left, boxes)
 
 
 def _in_the_way(crossings: FleetCrossings, robots: Ints, boxes: Ints) -> dict[int, int]:

@@ -48,29 +48,46 @@ def _since_node(courses: PackedCourses, laws: PackedLaws, k: int, place: float) 
 
 
 @inner
-def comes_to(courses: PackedCourses, laws: PackedLaws, robot: int, place: float) -> float:
-    """When a robot comes to a place [m] of its course [s]; at its start it has always been."""
-    first, last = courses.first[robot], courses.first[robot + 1] - 1
-    if place <= courses.distance[first]:
+def comes_between(
+    courses: PackedCourses, laws: PackedLaws, robot: int, low: int, after: int, place: float
+) -> float:
+    """As ``comes_to``, where a place is known to lie between the nodes ``low`` and ``after``."""
+    if place <= courses.distance[courses.first[robot]]:
         return -np.inf
-    k = node_before(courses.distance, first, last, place)
+    k = node_before(courses.distance, low, after, place)
     if place <= courses.distance[k]:
         return laws.arrive[k]
     return laws.leave[k] + _since_node(courses, laws, k, place)
 
 
 @inner
-def goes_from(courses: PackedCourses, laws: PackedLaws, robot: int, place: float) -> float:
-    """When a robot goes on from a place [m] of its course [s]; infinite where it stays."""
-    first, last = courses.first[robot], courses.first[robot + 1] - 1
+def goes_between(
+    courses: PackedCourses, laws: PackedLaws, robot: int, low: int, after: int, place: float
+) -> float:
+    """As ``goes_from``, where a place is known to lie between the nodes ``low`` and ``after``."""
+    last = courses.first[robot + 1] - 1
     if place >= courses.distance[last]:
         return laws.leave[last]
-    k = node_before(courses.distance, first, last, place)
+    k = node_before(courses.distance, low, after, place)
     if place <= courses.distance[k]:
         return laws.leave[k]
     if laws.speed[k] == 0.0 and laws.speed[k + 1] == 0.0:
         return laws.arrive[k + 1]
     return laws.leave[k] + _since_node(courses, laws, k, place)
+
+
+@inner
+def comes_to(courses: PackedCourses, laws: PackedLaws, robot: int, place: float) -> float:
+    """When a robot comes to a place [m] of its course [s]; at its start it has always been."""
+    first, last = courses.first[robot], courses.first[robot + 1] - 1
+    return comes_between(courses, laws, robot, first, last, place)
+
+
+@inner
+def goes_from(courses: PackedCourses, laws: PackedLaws, robot: int, place: float) -> float:
+    """When a robot goes on from a place [m] of its course [s]; infinite where it stays."""
+    first, last = courses.first[robot], courses.first[robot + 1] - 1
+    return goes_between(courses, laws, robot, first, last, place)
 
 
 class Blocks(NamedTuple):

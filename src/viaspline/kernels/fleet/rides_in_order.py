@@ -18,11 +18,9 @@ from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.kernels.fleet.ride_law import Ride, can_slow_at, new_ride, slow_down
-from viaspline.kernels.fleet.yielding_ride import take_law, waits_at
+from viaspline.kernels.fleet.yielding_ride import differs, take_law, waits_at
 from viaspline.kernels.jit import inner, kernel
 
-SAME_S = 1e-9
-"""By less than this a law doesn't change."""
 SLACK_S = 1e-9
 """So much later than it may a robot comes to a node, for rounding."""
 
@@ -66,15 +64,6 @@ def _ride_after(
     return ride, True
 
 
-@inner
-def _differs(ride: Ride, laws: PackedLaws) -> bool:
-    """Whether a ride has other times than the law that its robot has."""
-    for k in range(ride.square.size):
-        if abs(ride.arrive[k] - laws.arrive[ride.first + k]) > SAME_S:
-            return True
-    return abs(ride.leave[0] - laws.leave[ride.first]) > SAME_S
-
-
 @kernel
 def rides_in_order(
     courses: PackedCourses, crossings: PackedCrossings, rides: PackedRides, laws: PackedLaws,
@@ -106,7 +95,7 @@ def rides_in_order(
             is_due[robot] = False
             releases = _releases(courses, crossings, laws, second, robot)
             ride, keeps[robot] = _ride_after(courses, rides, robot, releases, 2 * k >= rounds)
-            if _differs(ride, laws):
+            if differs(ride, laws):
                 take_law(ride, laws)
                 is_settled = False
                 keeps[robot] = keeps[robot] and k + 1 < rounds

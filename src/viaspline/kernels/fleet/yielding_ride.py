@@ -4,9 +4,9 @@ At first it drives as if it were alone. Where it would be in a crossing while an
 lets that one pass: it is slowed down so that it comes to the crossing when the other has left it,
 if it can with a running start, so that no more is lost than has to be. Where it would be in another
 one's way while it waits, it waits elsewhere, or lets that one pass as well. Each crossing is given
-way to at most once, so this comes to an end. If it has to be given way to once more, the robot
-waits at home until all have arrived: where neither a start nor a resting place of a robot lies in a
-crossing, that is always left.
+way to at most once, so this comes to an end. If it has to be given way to once more, a robot that
+is patient waits at home until all have arrived: where neither a start nor a resting place of a
+robot lies in a crossing, that is always left.
 """
 
 from __future__ import annotations
@@ -37,6 +37,8 @@ CLEAR: Final = -1
 """No box is in the way."""
 TIME_SLACK_S = 1e-9
 """So much later than needed a robot comes to a crossing: for rounding."""
+SAME_S = 1e-9
+"""By less than this a law doesn't change."""
 STEPS_BACK = 8
 """Places farther back at which it is tried to wait: so many, up to the start."""
 STEPS_AHEAD = 4
@@ -172,20 +174,6 @@ def _give_way(scene: RideScene, ride: Ride, blocks: Blocks, entry: int, late: fl
 
 
 @inner
-def _is_clear_after_all(scene: RideScene, ride: Ride, blocks: Blocks) -> bool:
-    """Let a robot wait at home until all that have a law have arrived, and tell whether it may."""
-    courses, laws = scene.courses, scene.laws
-    over = -np.inf
-    for robot in range(laws.is_timed.size):
-        if laws.is_timed[robot]:
-            over = max(over, laws.arrive[courses.first[robot + 1] - 1])
-    forget_notches(ride, courses, scene.rides)
-    ride.waits[0] = max(0.0, over + TIME_SLACK_S - ride.leave[0])
-    set_times(ride, courses, scene.rides, 0)
-    return _blocking(scene, ride, blocks, ride.square.size)[0] == CLEAR
-
-
-@inner
 def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
     """The ride of a robot among those that have their law.
 
@@ -206,10 +194,8 @@ def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
         if box == CLEAR:
             return ride, CLEAR
         entry, late = _lateness(scene, ride, blocks, passage)
-        if entry == 0 or math.isinf(late):
+        if entry == 0 or math.isinf(late) or (yields[:count] == passage).any():
             return ride, box
-        if (yields[:count] == passage).any():
-            return ride, CLEAR if _is_clear_after_all(scene, ride, blocks) else box
         yields[count] = passage
         count += 1
         k = count - 1
@@ -224,6 +210,26 @@ def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
 
 
 @inner
+def patient_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
+    """As ``yielding_ride``, else one that waits at home until all that ever arrive have arrived."""
+    ride, box = yielding_ride(scene, robot)
+    if box == CLEAR:
+        return ride, CLEAR
+    courses, laws = scene.courses, scene.laws
+    over = -np.inf
+    for other in range(laws.is_timed.size):
+        arrives = laws.arrive[courses.first[other + 1] - 1]
+        if laws.is_timed[other] and arrives < np.inf:
+            over = max(over, arrives)
+    forget_notches(ride, courses, scene.rides)
+    ride.waits[0] = max(0.0, over + TIME_SLACK_S - ride.leave[0])
+    set_times(ride, courses, scene.rides, 0)
+    blocks = blocks_of(courses, scene.passages, laws, robot)
+    met, _ = _blocking(scene, ride, blocks, ride.square.size)
+    return ride, CLEAR if met == CLEAR else box
+
+
+@inner
 def take_law(ride: Ride, laws: PackedLaws) -> None:
     """Write a ride into the laws of its fleet."""
     for k in range(ride.square.size):
@@ -232,6 +238,15 @@ def take_law(ride: Ride, laws: PackedLaws) -> None:
         laws.leave[node] = ride.leave[k]
         laws.speed[node] = math.sqrt(ride.square[k])
     laws.is_timed[ride.robot] = True
+
+
+@inner
+def differs(ride: Ride, laws: PackedLaws) -> bool:
+    """Whether a ride has other times than the law that its robot has."""
+    for k in range(ride.square.size):
+        if abs(ride.arrive[k] - laws.arrive[ride.first + k]) > SAME_S:
+            return True
+    return abs(ride.leave[0] - laws.leave[ride.first]) > SAME_S
 
 
 @kernel
@@ -256,7 +271,7 @@ def timed_in_order(
     scene = RideScene(courses, crossings, passages, rides, laws)
     found = np.empty(order.size, np.int64)
     for i in range(order.size):
-        ride, found[i] = yielding_ride(scene, order[i])
+        ride, found[i] = patient_ride(scene, order[i])
         if found[i] == CLEAR:
             take_law(ride, laws)
     return found

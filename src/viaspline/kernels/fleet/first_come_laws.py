@@ -1,0 +1,192 @@
+"""Laws of a whole fleet by settling who passes first as robots meet, in the order of time.
+
+At first all drive as if they were alone. Then the two that meet first are given an order, and all
+whom that holds up are timed anew, until nobody meets anybody. Who would be held up longer passes
+first; where that holds up others as well, or robots would wait for each other in a circle, both
+orders are tried. What is late so spreads over the fleet, instead of piling up with those that are
+timed last.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.fleet.laws_in_turn import (
+    NOBODY,
+    gained,
+    next_meeting,
+    sooner_leader,
+    timed_in_turn,
+)
+from viaspline.kernels.fleet.order_state import (
+    OPEN,
+    TOUCHED,
+    WORK,
+    OrderState,
+    keep,
+    new_order_state,
+    settle,
+    undo,
+)
+from viaspline.kernels.fleet.packed_courses import PackedCourses
+from viaspline.kernels.fleet.packed_crossings import PackedCrossings
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_passages import PackedPassages
+from viaspline.kernels.fleet.packed_rides import PackedRides
+from viaspline.kernels.fleet.ride_law import new_ride
+from viaspline.kernels.fleet.yielding_ride import RideScene, take_law
+from viaspline.kernels.jit import inner, kernel
+
+MOST_RIDES = 40
+"""So many rides are looked for to try an order,"""
+MOST_RIDES_AT_LAST = 600
+"""and so many where with fewer neither one would do."""
+RIDES_EACH = 40
+"""So many rides of each robot are looked for at first, by the orders that are forced."""
+ASIDE_SHARE = 1.05
+"""Both orders are tried where all are held up longer than the second one by this share,"""
+ASIDE_S = 0.1
+"""and by so much [s]."""
+
+
+@inner
+def _cost(
+    scene: RideScene, state: OrderState, weight: Floats, crossing: int, leader: int, second: int,
+    most: int,
+) -> float:  # fmt: skip
+    """Settle an order; what it counts that all are held up by it [s], infinite if it can't be."""
+    settle(state, crossing, leader)
+    robots = np.array([second])
+    steady = leader if most == MOST_RIDES else NOBODY
+    if not timed_in_turn(scene, state, robots, steady, most):
+        return np.inf
+    return -gained(scene, state, weight)
+
+
+@inner
+def _undo(scene: RideScene, state: OrderState) -> None:
+    undo(scene.courses, scene.passages, scene.laws, state)
+
+
+@inner
+def _settle_best(scene: RideScene, state: OrderState, weight: Floats, passage: int) -> bool:
+    """Settle who passes first where two robots meet. Whether that could be."""
+    crossing = scene.passages.crossing[passage]
+    leader, second, late = sooner_leader(scene, state, weight, passage)
+    if late == np.inf:
+        return False
+    cost = _cost(scene, state, weight, crossing, leader, second, MOST_RIDES)
+    if cost <= ASIDE_SHARE * late + ASIDE_S:
+        return True
+    _undo(scene, state)
+    if state.movable[leader] and (cost == np.inf or weight[leader] == weight[second]):
+        other_cost = _cost(scene, state, weight, crossing, second, leader, MOST_RIDES)
+        if other_cost < cost:
+            return True
+        _undo(scene, state)
+    most = MOST_RIDES if cost < np.inf else MOST_RIDES_AT_LAST
+    if _cost(scene, state, weight, crossing, leader, second, most) < np.inf:
+        return True
+    _undo(scene, state)
+    if not state.movable[leader]:
+        return False
+    if _cost(scene, state, weight, crossing, second, leader, most) < np.inf:
+        return True
+    _undo(scene, state)
+    return False
+
+
+@inner
+def _settle_forced(scene: RideScene, state: OrderState) -> None:
+    """Let robots leave before others pass their starts, and rest after others have passed there.
+
+    Undone where robots would wait for each other in a circle by that.
+    """
+    courses, passages = scene.courses, scene.passages
+    for p in range(passages.crossing.size):
+        c, robot, other = passages.crossing[p], passages.other[state.mate[p]], passages.other[p]
+        rests = passages.exit[p] == courses.first[robot + 1] - 2
+        leader = OPEN
+        if passages.entry[p] == courses.first[robot]:
+            leader = robot
+        elif rests and not scene.rides.vanishes[robot]:
+            leader = other
+        both = state.movable[robot] and state.movable[other]
+        if leader != OPEN and state.leader[c] == OPEN and both:
+            settle(state, c, leader)
+    robots = np.flatnonzero(state.movable)
+    if timed_in_turn(scene, state, robots, NOBODY, RIDES_EACH * robots.size):
+        keep(state)
+    else:
+        _undo(scene, state)
+
+
+@inner
+def _leave_out(scene: RideScene, state: OrderState, robot: int) -> None:
+    """Take a robot's law away, and time those anew whom it held up."""
+    passages = scene.passages
+    scene.laws.is_timed[robot] = False
+    state.movable[robot] = False
+    held = np.zeros(state.movable.size, np.bool_)
+    for p in range(passages.first[robot], passages.first[robot + 1]):
+        other = passages.other[p]
+        if state.binds[state.mate[p]] and state.movable[other]:
+            held[other] = True
+    robots = np.flatnonzero(held)
+    if not timed_in_turn(scene, state, robots, NOBODY, MOST_RIDES_AT_LAST):
+        _undo(scene, state)
+
+
+@kernel
+def first_come_laws(
+    courses: PackedCourses, crossings: PackedCrossings, passages: PackedPassages,
+    rides: PackedRides, laws: PackedLaws, weight: Floats, movable: Flags,
+) -> int:  # fmt: skip
+    """Give robots their laws all at once, by settling who passes first where they meet.
+
+    Args:
+        courses: PackedCourses.
+        crossings: PackedCrossings.
+        passages: Of these.
+        rides: PackedRides.
+        laws: Of those that aren't movable, who have theirs; written to. Afterwards robots that wait
+            for each other in a circle whatever the order have none.
+        weight: What a second of a robot's lateness counts, (n,).
+        movable: The robots that are to get laws, (n,).
+
+    Returns:
+        How many nodes and passages were looked at.
+    """
+    scene = RideScene(courses, crossings, passages, rides, laws)
+    state = new_order_state(courses, passages, crossings.robots.shape[0], movable.copy())
+    for robot in range(movable.size):
+        if movable[robot]:
+            take_law(new_ride(courses, rides, robot), laws)
+    _settle_forced(scene, state)
+    soonest = np.full(movable.size, np.inf)
+    for robot in range(movable.size):
+        if movable[robot]:
+            soonest[robot] = next_meeting(scene, state, robot)[0]
+    while True:
+        robot = int(np.argmin(soonest))
+        if soonest[robot] == np.inf:
+            break
+        soonest[robot], passage = next_meeting(scene, state, robot)
+        if passage < 0 or soonest[robot] > soonest.min():
+            continue
+        other = passages.other[passage]
+        if not _settle_best(scene, state, weight, passage):
+            out = robot
+            if movable[other] and weight[other] < weight[robot]:
+                out = other
+            _leave_out(scene, state, out)
+            soonest[out] = np.inf
+        for i in range(state.counts[TOUCHED]):
+            one = state.touched[i]
+            soonest[one] = next_meeting(scene, state, one)[0]
+        for one in (robot, other):
+            if state.movable[one]:
+                soonest[one] = next_meeting(scene, state, one)[0]
+        keep(state)
+    return state.counts[WORK]
