@@ -56,8 +56,11 @@ def gentler_path(problem: DrivenProblem, laid: SplinePath) -> SplinePath | None:
 
 
 def _may_be_bent(problem: DrivenProblem) -> bool:
-    needs = problem.requirements
-    return needs.footprint is None and needs.objective.is_time and not needs.has_own_tension
+    needs, sequence = problem.requirements, problem.sequence
+    if needs.footprint is not None or not needs.objective.is_time or needs.has_own_tension:
+        return False
+    has_headings = sequence.start_tangent is not None or sequence.end_tangent is not None
+    return needs.budget is None or not has_headings  # under way there is no time for it
 
 
 def _in_runs(problem: DrivenProblem, laid: SplinePath) -> RunsOfPath:
