@@ -27,7 +27,7 @@ def through_a_gate(half_width: float) -> vs.Mission:
     }
     route = {
         "start": {"at": [5, 4], "heading_deg": 0},
-        "via": [[20, 4], [20, 10]],
+        "via": [[20, 4.25], [20, 9.75]],
         "goal": {"at": [5, 10], "heading_deg": 180},
     }
     world = {"bounds": [0, -6, 34, 20], "known": walls}
@@ -50,7 +50,7 @@ def test_where_the_error_at_full_lock_would_not_fit_the_turns_are_wider() -> Non
 def test_where_there_is_room_for_it_the_circle_stays_what_the_steering_allows() -> None:
     plan = vs.plan(through_a_gate(1.6))
     assert plan.mission.robot.min_turn_radius_m is None
-    assert plan.tracking_error > 0.5
+    assert plan.tracking_error > 0.2
 
 
 def test_where_nothing_fits_the_first_reason_is_told() -> None:

@@ -32,7 +32,7 @@ def test_it_wants_a_mission_or_all_and_not_both(warm: Callable[..., Result], wor
     [
         ("fig8-patrol", ["plain"]),
         ("barn-unseen", ["lidar"]),
-        ("yard-rover", ["ackermann+footprint+turning"]),
+        ("yard-rover", ["ackermann+footprint+turning+zones"]),
         ("crossing-carts", ["moving"]),
         ("plant-inspection", ["space"]),
         ("corridor-bay", ["fleet"]),

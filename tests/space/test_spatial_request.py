@@ -3,7 +3,6 @@ import math
 import numpy as np
 import pytest
 
-from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.space.spatial_request import spatial_limits_of, spatial_problem_of
 from viaspline.space.timing.yaw_profile import FacingAlong, FacingFixed, FacingPlace
@@ -90,12 +89,3 @@ def test_a_vertical_acceleration_as_large_as_the_one_along_the_path_is_a_limit_t
     assert limits.vertical_accel == 1
     limits = spatial_limits_of(mission(robot={**asked, "max_vertical_accel_mps2": 1.25}))
     assert limits.vertical_accel is None
-
-
-def test_what_is_not_planned_in_space_is_refused_by_name() -> None:
-    cart = {
-        "circle": {"center": [30, 30], "radius": 1},
-        "motion": {"from": [30, 30], "velocity_mps": [1, 0]},
-    }
-    with pytest.raises(GeometryError, match="move and aren't on the map"):
-        spatial_problem_of(mission(world={"unseen": [cart]}, robot={"sensor": {"range_m": 20}}))

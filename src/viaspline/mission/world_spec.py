@@ -69,12 +69,21 @@ class SpeedZone(
     max_speed_mps: Speed
     name: Name | None = None
 
-    @cached_property
+    @property
     def corners(self) -> Floats:
-        """Its corners as an array [m], shape (n, 2); made once, for every time law asks.
+        """Its corners as an array [m], shape (n, 2).
 
         Raises:
             GeometryError: If the polygon is no area, e.g. as it crosses itself.
+        """
+        return np.array(self.sound_polygon, dtype=np.float64)
+
+    @cached_property
+    def sound_polygon(self) -> Ring:
+        """Its corners, found to bound an area: once, for every time law asks.
+
+        Raises:
+            GeometryError: If they don't.
         """
         import shapely
 
@@ -84,7 +93,7 @@ class SpeedZone(
             raise GeometryError(
                 f"the polygon of speed zone '{self.name or ''}' is no area: {reason}"
             )
-        return np.array(self.polygon, dtype=np.float64)
+        return self.polygon
 
 
 SpeedZones: TypeAlias = Annotated[

@@ -51,7 +51,7 @@ def test_a_sensor_that_flickers_makes_no_oscillation(
 def test_a_side_that_a_step_has_no_time_to_compare_is_asked_about_first_in_the_next(
     drive: Drive, mission_of: Make, disc_at: Shape
 ) -> None:
-    mission = mission_of([0, 0], [20, 0], unseen=[disc_at(10, 0.0, 1)], **ROBOT)
+    mission = mission_of([0, 0], [20, 0], unseen=[disc_at(10, -0.05, 1)], **ROBOT)
     route = mission.route.model_copy(update={"detours": "local"})  # which is the longer search
     mission = mission.model_copy(update={"route": route})
     post = mission.world.unseen

@@ -1,9 +1,10 @@
-"""The laws of a fleet along fixed paths: by who comes first to each crossing, or by priority."""
+"""The laws of a fleet along fixed paths: by priority, or by who comes first to each crossing."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -21,6 +22,8 @@ from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 
 RIDES_EACH = 200
 """So many rides are looked for at a time, for laws of robots that can't let others pass."""
+MANY = 50
+"""Of so many robots who passes first is also settled where two would meet, in the order of time."""
 MAX_IDLE = 5
 """How often that, or another order of all, is tried without serving more by it."""
 
@@ -46,12 +49,13 @@ def time_paths(
     left_out: Sequence[int] = (),
     given: FleetLaws | None = None,
 ) -> Timing:
-    """Time robots along their paths, by priority where they meet and by orders that are forced.
+    """Time robots along their paths, by priority and by the orders that are forced.
 
-    Among equals the one that would be held up longer passes first. For robots that would wait for
-    each other in a circle some others are timed anew, after them. Where that doesn't help, robots
-    are timed one after the other, those of high priority and with long ways first, and each before
-    the one that it can't let pass. Where no path passes another's start or resting place, every
+    Among equals those with the longer way come first. For a robot that can't let others pass some
+    of these are timed anew, after it. Where that doesn't help, it is timed before the one that it
+    can't let pass, and all from the beginning. Of many robots those that came last would wait for
+    all others: there who passes first is also settled where two would meet, in the order of time,
+    and the better of both is taken. Where no path passes another's start or resting place, every
     robot is served.
 
     Args:
@@ -65,20 +69,19 @@ def time_paths(
     given = standing_laws(courses) if given is None else given
     settled = [*left_out, *np.flatnonzero(given.packed.is_timed).tolist()]
     passages = passages_of(courses.packed, crossings.packed)
-    search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
-    laws = copied_laws(given.packed)
-    laws.is_timed[list(left_out)] = True
-    search.first_come(laws)
-    best = _given_laws(search, laws)
-    if not best.blocked:
-        return best
     asked = forced_orders(courses.packed, passages, rides.packed.vanishes)
     ranks = [(-p, -t) for p, t in zip(priorities, rides.alone.tolist(), strict=True)]
     found = _timed(courses, crossings, passages, rides, asked, ranks, left_out, given)
-    if not found.blocked:
+    is_small = given.packed.is_timed.size - len(settled) < MANY
+    if not found.blocked and is_small:
         return found
-    given_more, idle = _given_laws(search, found.laws.packed), 0
-    best = min(best, given_more, key=lambda one: len(one.blocked))
+    search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
+    best, idle = _given_laws(search, found.laws.packed), 0
+    if not is_small:
+        laws = copied_laws(given.packed)
+        laws.is_timed[list(left_out)] = True
+        search.first_come(laws)
+        best = min(best, _given_laws(search, laws), key=partial(_lost, search))
     while best.blocked and idle < MAX_IDLE:
         learned = [(robot, other) for robot, other in found.blocked.items() if other not in settled]
         pairs = np.unique(
@@ -92,6 +95,14 @@ def time_paths(
         if len(found.blocked) < len(best.blocked):
             best, idle = found, 0
     return best
+
+
+def _lost(search: LawSearch, timing: Timing) -> tuple[int, float]:
+    """What a timing is chosen by: how many have no law, and when all others arrive, weighed."""
+    laws, ends = timing.laws.packed, search.courses.packed.first[1:] - 1
+    there = laws.is_timed & np.isfinite(laws.arrive[ends])
+    there[list(timing.blocked)] = False
+    return len(timing.blocked), float(search.weight[there] @ laws.arrive[ends][there])
 
 
 def _given_laws(search: LawSearch, laws: PackedLaws) -> Timing:

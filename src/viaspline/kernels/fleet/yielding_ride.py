@@ -174,17 +174,8 @@ def _give_way(scene: RideScene, ride: Ride, blocks: Blocks, entry: int, late: fl
 
 
 @inner
-def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
-    """The ride of a robot among those that have their law.
-
-    Args:
-        scene: What it rides among.
-        robot: Which has none.
-
-    Returns:
-        The ride, and -1; or a ride that isn't clear, and the number of a box in which it can't let
-        the other one pass.
-    """
+def _ridden(scene: RideScene, robot: int) -> tuple[Ride, int, bool]:
+    """See ``yielding_ride``; and whether it would have to let the same one pass once more."""
     ride = new_ride(scene.courses, scene.rides, robot)
     blocks = blocks_of(scene.courses, scene.passages, scene.laws, robot)
     yields = np.empty(blocks.since.size, np.int64)  # passages, in the order of their first cells
@@ -192,10 +183,12 @@ def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
     while True:
         box, passage = _blocking(scene, ride, blocks, ride.square.size)
         if box == CLEAR:
-            return ride, CLEAR
+            return ride, CLEAR, False
         entry, late = _lateness(scene, ride, blocks, passage)
-        if entry == 0 or math.isinf(late) or (yields[:count] == passage).any():
-            return ride, box
+        if entry == 0 or math.isinf(late):
+            return ride, box, False
+        if (yields[:count] == passage).any():
+            return ride, box, True
         yields[count] = passage
         count += 1
         k = count - 1
@@ -210,11 +203,30 @@ def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
 
 
 @inner
+def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
+    """The ride of a robot among those that have their law.
+
+    Args:
+        scene: What it rides among.
+        robot: Which has none.
+
+    Returns:
+        The ride, and -1; or a ride that isn't clear, and the number of a box in which it can't let
+        the other one pass.
+    """
+    ride, box, _ = _ridden(scene, robot)
+    return ride, box
+
+
+@inner
 def patient_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
-    """As ``yielding_ride``, else one that waits at home until all that ever arrive have arrived."""
-    ride, box = yielding_ride(scene, robot)
-    if box == CLEAR:
-        return ride, CLEAR
+    """As ``yielding_ride``, but where it would have to let one pass twice, it waits at home.
+
+    Until all that ever arrive have arrived.
+    """
+    ride, box, again = _ridden(scene, robot)
+    if not again:
+        return ride, box
     courses, laws = scene.courses, scene.laws
     over = -np.inf
     for other in range(laws.is_timed.size):

@@ -30,9 +30,9 @@ STRAIGHT_SPAN = 1e-7  # by which a straight one's controls are off, in required 
 def gentler_path(problem: DrivenProblem, laid: SplinePath) -> SplinePath | None:
     """A clear path on the same sides that bends less; None where there is none.
 
-    That is for a disc whose path is chosen by time. Lines between via points that it keeps to stay
-    as they are, and so do headings that are given. No turn becomes sharper that the robot has to
-    slow down for, unless that is sooner.
+    That is for a disc whose path is chosen by time, and is no round. Lines between via points that
+    it keeps to stay as they are, and so do headings that are given. No turn becomes sharper that
+    the robot has to slow down for, unless that is sooner.
 
     Args:
         problem: What is to be driven.
@@ -58,6 +58,8 @@ def gentler_path(problem: DrivenProblem, laid: SplinePath) -> SplinePath | None:
 def _may_be_bent(problem: DrivenProblem) -> bool:
     needs, sequence = problem.requirements, problem.sequence
     if needs.footprint is not None or not needs.objective.is_time or needs.has_own_tension:
+        return False
+    if sequence.closed:  # laps of fleets' patrols are timed in what is left of a period
         return False
     has_headings = sequence.start_tangent is not None or sequence.end_tangent is not None
     return needs.budget is None or not has_headings  # under way there is no time for it
