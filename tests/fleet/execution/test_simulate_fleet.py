@@ -147,6 +147,10 @@ def test_who_has_a_hair_of_speed_left_when_it_halts_comes_to_rest_and_goes_on(se
 @given(seed=st.integers(0, 10_000), delays=ALL_DELAYS)
 @settings(max_examples=15, deadline=None)
 @example(seed=69, delays=Delays(slowed=0.8125, stretch_m=8.5))
+@example(  # a report a nanometre before its goal, at 28 µm/s
+    seed=179,
+    delays=Delays(slowed=0.7535561358603714, stretch_m=8.75, halts=2.375, halts_s=10.0),
+)
 def test_what_is_driven_is_proven_to_be_as_far_apart_as_was_planned(
     seed: int, delays: Delays
 ) -> None:

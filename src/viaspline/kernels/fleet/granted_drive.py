@@ -172,9 +172,10 @@ def drive_stretch(
     left = end - drive.place[robot]
     if left <= NEAR_M:
         enters_node(drive, courses, trouble, robot, node + 1)
-        if rides.square[node + 1] == 0.0:
-            drive.square[robot] = 0.0
-        return now
+        if rides.square[node + 1] > 0.0 or square == 0.0:
+            return now
+        drive.square[robot] = 0.0  # what is left of its braking takes its time
+        return min(now + 2.0 * left / math.sqrt(square), until)
     room = grant - drive.place[robot]
     if square == 0.0 and (room <= NEAR_M or pace < SLOWEST):
         if 0.0 < room <= NEAR_M:
