@@ -341,6 +341,41 @@ def test_a_scan_is_placed_where_the_robot_was_when_it_was_taken() -> None:
     assert unstamped.position == pytest.approx((1.02, 2.0001), abs=1e-4)
 
 
+def scan_of(time: float, robot: PretendRobot) -> dict[str, Any]:
+    return laser([1.0, 2.0]) | {
+        "header": {**robot.odometry(time)["header"], "frame_id": "base_link"}
+    }
+
+
+def test_a_scan_waits_for_the_odometry_that_tells_where_it_was_taken() -> None:
+    robot = PretendRobot([], None, (1.0, 2.0, 0.0))
+    inputs = HeardInputs(RosSpec(), has_lidar=True)
+    inputs = inputs.after("/tf", robot.map_to_odom(9.0), 9.0)
+    inputs = inputs.after("/odom", robot.odometry(9.0), 9.0)
+    inputs = inputs.after("/scan", scan_of(9.05, robot), 9.05)
+    assert inputs.look is None
+    robot.x, robot.y, robot.heading = 1.1, 2.0, 0.2  # which its speed of 0 doesn't foretell
+    inputs = inputs.after("/odom", robot.odometry(9.1), 9.06)
+    scan = inputs.sensed()
+    assert isinstance(scan, vs.Scan)
+    assert (*scan.position, scan.heading) == pytest.approx((1.05, 2.0, 0.1), abs=1e-6)
+    assert inputs.look is not None
+
+
+def test_a_scan_does_not_wait_for_ever_and_the_newest_that_is_placed_counts() -> None:
+    robot = PretendRobot([], None, (1.0, 2.0, 0.0))
+    inputs = HeardInputs(RosSpec(), has_lidar=True)
+    inputs = inputs.after("/tf", robot.map_to_odom(9.0), 9.0)
+    for time in (9.01, 9.02, 9.03):
+        inputs = inputs.after("/scan", scan_of(time, robot), time)
+    inputs = inputs.after("/odom", robot.odometry(9.02), 9.04)
+    assert inputs.look is not None
+    assert inputs.look.at == 9.02
+    inputs = inputs.after("/tf", robot.map_to_odom(9.2), 9.2)
+    assert inputs.look is not None
+    assert inputs.look.at == 9.03
+
+
 def test_a_domain_full_of_other_robots_changes_nothing() -> None:
     robot = PretendRobot([], None, (1.0, 2.0, 0.0))
     link = PretendLink(robot)

@@ -8,38 +8,26 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 from viaspline.links.ros.frame_tree import SAME, FrameTree, PlanarPose
+from viaspline.links.ros.odometry_history import (
+    HeardOfRobot,
+    OdometryHistory,
+    carried,
+    turning,
+)
 from viaspline.links.ros.ros_topics import FRAME_TOPICS
 from viaspline.mission.ros_spec import RosSpec
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.state import RobotState
 from viaspline.robot.watching.fresh_inputs import STALE_S
 from viaspline.ros_messages.odometry_message import state_from
-from viaspline.ros_messages.stamps import seconds_of
 
-RECENT: Final = 20
-"""So many messages of odometry are kept: a scan goes with the one that is nearest to it in time."""
-ONE_CLOCK_S: Final = 1.0
-"""Stamps of a scan and of odometry that are farther apart aren't of one clock [s]."""
-
-
-class HeardOfRobot(NamedTuple):
-    """A message, and when it was heard [s]."""
-
-    at: float
-    message: Mapping[str, Any]
-
-    @property
-    def stamp(self) -> float:
-        """The time of its header, by the robot's clock [s]."""
-        return seconds_of(self.message["header"]["stamp"])
-
-    @property
-    def frame(self) -> str:
-        """The frame of its header."""
-        return str(self.message["header"]["frame_id"])
+SCAN_WAITS_S: Final = 0.1
+"""So long a scan waits for odometry that is as new; then it is placed by what there is [s]."""
+MOST_WAITING: Final = 20
+"""Scans that wait for odometry; beyond that the oldest is dropped."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,44 +38,72 @@ class HeardInputs:
         names: Of topics and frames.
         has_lidar: Whether scans are waited for.
         frames: What tf has told.
-        odometry: The last that was heard.
-        recent: The last ones of it.
-        scan: The last that was heard.
+        history: What odometry has said lately.
+        scan: The last whose place is known.
+        waiting: Newer ones, which wait for odometry that tells where they were taken.
         chart: The map, once it is heard.
     """
 
     names: RosSpec
     has_lidar: bool
     frames: FrameTree = field(default_factory=FrameTree)
-    odometry: HeardOfRobot | None = None
-    recent: tuple[HeardOfRobot, ...] = ()
+    history: OdometryHistory = field(default_factory=OdometryHistory)
     scan: HeardOfRobot | None = None
+    waiting: tuple[HeardOfRobot, ...] = ()
     chart: HeardOfRobot | None = None
+
+    @property
+    def odometry(self) -> HeardOfRobot | None:
+        """The last that was heard."""
+        return self.history.last
+
+    @property
+    def look(self) -> HeardOfRobot | None:
+        """What a step is made for: the last scan, or without a lidar the last odometry."""
+        return self.scan if self.has_lidar else self.odometry
 
     def after(self, topic: str, message: Mapping[str, Any], now: float) -> HeardInputs:
         """It after a message at a time [s]; odometry that isn't finite is as if it hadn't come."""
+        return self._with(topic, message, now)._with_placed_scans(now)
+
+    def _with(self, topic: str, message: Mapping[str, Any], now: float) -> HeardInputs:
         names = self.names
         if topic in FRAME_TOPICS:
             return replace(self, frames=self.frames.told(message))
         if topic == names.odom_topic:
             state = state_from(message)
             numbers = *state.position, state.heading, state.speed, state.speed_across
-            finite = all(math.isfinite(value) for value in (*numbers, _turning(message)))
+            finite = all(math.isfinite(value) for value in (*numbers, turning(message)))
             if not finite:
                 return self
-            heard = HeardOfRobot(now, message)
-            return replace(self, odometry=heard, recent=(*self.recent[1 - RECENT :], heard))
+            return replace(self, history=self.history.having(HeardOfRobot(now, message)))
         if topic == names.scan_topic:
-            return replace(self, scan=HeardOfRobot(now, message))
+            waiting = (*self.waiting[1 - MOST_WAITING :], HeardOfRobot(now, message))
+            return replace(self, waiting=waiting)
         if topic == names.map_topic:
             return replace(self, chart=HeardOfRobot(now, message))
         return self
+
+    def _with_placed_scans(self, now: float) -> HeardInputs:
+        """With the newest scan that is placed, or has waited too long, as the last one.
+
+        Odometry may be heard a little after a scan of the same time. Carried on from before, a
+        robot that speeds up or turns would be centimetres off, and see walls where there are none.
+        """
+        due = [
+            place
+            for place, one in enumerate(self.waiting)
+            if self.history.covers(one) or now - one.at >= SCAN_WAITS_S
+        ]
+        if not due or self.odometry is None:
+            return self
+        return replace(self, scan=self.waiting[due[-1]], waiting=self.waiting[due[-1] + 1 :])
 
     def placed(self, pose: PlanarPose) -> HeardInputs:
         """With the map where a person says that the robot is on it."""
         if self.odometry is None:
             return self
-        base = _carried(self.odometry, 0.0)
+        base = carried(self.odometry, 0.0)
         frames = self.frames.having(
             self.names.global_frame, self._odometry_frame, pose.then(base.inverse)
         )
@@ -104,8 +120,8 @@ class HeardInputs:
         if self.odometry is None or at is None:
             return None
         told = state_from(self.odometry.message)
-        here = at.then(_carried(self.odometry, 0.0))
-        turned = max(now - self.odometry.at, 0.0) * _turning(self.odometry.message)
+        here = at.then(carried(self.odometry, 0.0))
+        turned = max(now - self.odometry.at, 0.0) * turning(self.odometry.message)
         return RobotState(
             (here.x, here.y), here.heading + turned, told.speed, told.speed_across,
             self.odometry.at,
@@ -125,7 +141,7 @@ class HeardInputs:
         mount = self._mount
         assert on_map is not None
         assert mount is not None
-        base = on_map.then(self._base_at(self.scan))
+        base = on_map.then(self.history.base_at(self.scan))
         told = self.scan.message
         return Scan.from_laserscan(
             told["ranges"], told["angle_min"], told["angle_increment"], told["range_min"],
@@ -183,32 +199,3 @@ class HeardInputs:
         if self.odometry is None:
             return None
         return self.frames.pose(self._odometry_frame, self.names.global_frame)
-
-    def _base_at(self, scan: HeardOfRobot) -> PlanarPose:
-        """Where the body was by odometry when a scan was taken.
-
-        Its stamp is the robot's, and so is that of the odometry; a driver that stamps nothing, or
-        by another clock, is taken to have said it at once.
-        """
-        assert self.odometry is not None
-        nearest = min(self.recent, key=lambda one: abs(scan.stamp - one.stamp))
-        after = scan.stamp - nearest.stamp
-        if scan.stamp == 0.0 or abs(after) > ONE_CLOCK_S:
-            return _carried(self.odometry, scan.at - self.odometry.at)
-        return _carried(nearest, after)
-
-
-def _carried(odometry: HeardOfRobot, seconds: float) -> PlanarPose:
-    """Where a body is by odometry a short time later or, below 0, before [s]."""
-    state, turned = state_from(odometry.message), seconds * _turning(odometry.message)
-    way = math.hypot(state.speed, state.speed_across) * seconds
-    course = state.heading + 0.5 * turned + math.atan2(state.speed_across, state.speed)
-    x, y = state.position[:2]
-    return PlanarPose(
-        x + way * math.cos(course), y + way * math.sin(course), state.heading + turned
-    )
-
-
-def _turning(odometry: Mapping[str, Any]) -> float:
-    """How fast a body turns by a message of odometry [rad/s]."""
-    return float(odometry["twist"]["twist"]["angular"]["z"])

@@ -12,7 +12,8 @@ from viaspline.links.ros.asked_route import mission_from_here, mission_to
 from viaspline.links.ros.drivable_mission import check_for_ros
 from viaspline.links.ros.drive_news import DriveNews
 from viaspline.links.ros.frame_tree import pose_from
-from viaspline.links.ros.heard_inputs import HeardInputs, HeardOfRobot
+from viaspline.links.ros.heard_inputs import HeardInputs
+from viaspline.links.ros.odometry_history import HeardOfRobot
 from viaspline.links.ros.ros_topics import Outgoing
 from viaspline.mission.model import Mission
 from viaspline.robot.navigator import Navigator

@@ -73,18 +73,15 @@ class RosRunner:
 
     def run(self) -> RosDriveEnd:
         """Drive until the end; the robot is told to stand whatever happens."""
-        names = self.bridge.mission.ros
-        trigger = names.scan_topic if self.bridge.inputs.has_lidar else names.odom_topic
         due = self._now()
         try:
             while True:
-                fresh = False
+                look = self.bridge.inputs.look
                 for at, topic, message in self._link.messages(max(due - self._now(), 0.0)):
                     self.bridge = self.bridge.heard(topic, message, at - self._since)
-                    fresh = fresh or topic == trigger
                 self._plan_if_asked()
                 now = self._now()
-                if fresh or now >= due:
+                if self.bridge.inputs.look is not look or now >= due:
                     self._step(now)
                     due = now + self._period
                 if self._is_over():
