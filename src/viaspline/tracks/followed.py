@@ -12,6 +12,10 @@ from typing import Final
 from viaspline.kernels.arrays import Floats
 from viaspline.tracks.motion_estimate import MotionEstimate
 
+WANDER: Final = 0.4
+"""By how much a velocity changes in a second, in standard deviations, where nothing else is said
+[m/s per square root of s]."""
+
 PLACE_ERROR_M: Final = 1e-3
 """A place that is measured exactly, for a filter that divides by its error [m]."""
 

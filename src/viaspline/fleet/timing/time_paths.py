@@ -78,8 +78,7 @@ def time_paths(
     search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
     best, idle = _given_laws(search, found.laws.packed), 0
     if not is_small:
-        laws = copied_laws(given.packed)
-        laws.is_timed[list(left_out)] = True
+        laws = _laws_to_fill(given, left_out)
         search.first_come(laws)
         best = min(best, _given_laws(search, laws), key=partial(_lost, search))
     while best.blocked and idle < MAX_IDLE:
@@ -137,24 +136,30 @@ def _in_the_way(crossings: FleetCrossings, robots: Ints, boxes: Ints) -> dict[in
     return dict(zip(robots[failed].tolist(), others, strict=True))
 
 
+def _laws_to_fill(given: FleetLaws, left_out: Sequence[int]) -> PackedLaws:
+    """The given laws, to which those of all others but some robots are to be added."""
+    laws = copied_laws(given.packed)
+    laws.is_timed[list(left_out)] = True
+    return laws
+
+
 def _timed(
     courses: FleetCourses, crossings: FleetCrossings, passages: PackedPassages,
     rides: FleetRides, asked: Ints, ranks: Sequence[tuple[float, ...]], left_out: Sequence[int],
     given: FleetLaws,
 ) -> Timing:  # fmt: skip
     """One round: those that wait for each other in a circle come last, the foremost one first."""
-    laws = FleetLaws(copied_laws(given.packed))
-    laws.packed.is_timed[list(left_out)] = True
-    settled = np.flatnonzero(laws.packed.is_timed)
+    laws = _laws_to_fill(given, left_out)
+    settled = np.flatnonzero(laws.is_timed)
     free = asked[~np.isin(asked, settled).any(axis=1)]
     plan = timing_order(free, ranks)
     circular = sorted(plan.circular.tolist(), key=lambda robot: ranks[robot])
     order = np.array([*plan.order.tolist(), *circular], np.int64)
     order = order[~np.isin(order, settled)]
     boxes = timed_in_order(
-        courses.packed, crossings.packed, passages, rides.packed, laws.packed, order
+        courses.packed, crossings.packed, passages, rides.packed, laws, order
     )
-    return Timing(laws, _in_the_way(crossings, order, boxes))
+    return Timing(FleetLaws(laws), _in_the_way(crossings, order, boxes))
 
 
 def copied_laws(laws: PackedLaws) -> PackedLaws:

@@ -5,18 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Final
 
 import numpy as np
 
 from viaspline.space.among.moving_solid import LONGEST_CELL_S, MovingSolid
 from viaspline.space.online.solid_sensor import SolidSighting
-from viaspline.tracks.followed import STOOD_M, Standstill, followed
+from viaspline.tracks.followed import STOOD_M, WANDER, Standstill, followed
 from viaspline.tracks.motion_estimate import MotionEstimate
 from viaspline.tracks.straight_on import SIGMAS, straight_on
-
-WANDER: Final = 0.4
-"""By how much a velocity changes in a second, in standard deviations [m/s per square root of s]."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ import numpy as np
 
 from viaspline.errors import GeometryError
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
-from viaspline.tracks.followed import Standstill, followed
+from viaspline.tracks.followed import WANDER, Standstill, followed
 from viaspline.tracks.motion_estimate import MotionEstimate
 
 SAME_HEADING_RAD: Final = 1e-9
@@ -63,7 +63,7 @@ class TrackedSightings:
     """
 
     velocity_noise: float
-    wander: float = 0.4
+    wander: float = WANDER
     tracks: tuple[SightedTrack, ...] = ()
     time: float = -math.inf
 

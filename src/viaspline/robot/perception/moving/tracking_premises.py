@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from viaspline.tracks.followed import WANDER
+
 
 @dataclass(frozen=True)
 class TrackingPremises:
@@ -27,7 +29,7 @@ class TrackingPremises:
     """
 
     top_speed: float
-    wander: float = 0.4
+    wander: float = WANDER
     noise: float = 0.0
     settle_s: float = 0.8
     doubt_s: float = 2.0
