@@ -24,6 +24,7 @@ from viaspline.fleet.courses import FleetPath, courses_along, courses_of
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_laws import static_laws
+from viaspline.fleet.renewed_crossings import renewed_crossings
 
 Result = TypeVar("Result")
 GAP_S = 0.5  # from one departure to the next
@@ -51,6 +52,8 @@ def measure(count: int, seed: int, kind: str, runs: int) -> None:
     some = np.array([0])
     _, took = best(lambda: crossings_of(courses, some), runs)
     print(f"  of one    {took:8.1f} ms")
+    _, took = best(lambda: renewed_crossings(found, courses, courses, some), runs)
+    print(f"  put among {took:8.1f} ms")
     laws = static_laws(
         courses,
         [one.trajectory.delayed(GAP_S * k) for k, one in enumerate(plans.values())],

@@ -156,9 +156,7 @@ def _timed(
     circular = sorted(plan.circular.tolist(), key=lambda robot: ranks[robot])
     order = np.array([*plan.order.tolist(), *circular], np.int64)
     order = order[~np.isin(order, settled)]
-    boxes = timed_in_order(
-        courses.packed, crossings.packed, passages, rides.packed, laws, order
-    )
+    boxes = timed_in_order(courses.packed, crossings.packed, passages, rides.packed, laws, order)
     return Timing(FleetLaws(laws), _in_the_way(crossings, order, boxes))
 
 

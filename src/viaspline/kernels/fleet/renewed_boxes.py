@@ -1,0 +1,117 @@
+"""Crossings of which those of some robots are replaced by others, in one pass over all boxes.
+
+Both hold their boxes in order, and no pair of robots is in both: they are merged, not sorted.
+
+Tested through ``fleet/test_renewed_crossings``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet.packed_crossings import PackedCrossings
+from viaspline.kernels.jit import inlined, inner, kernel
+
+
+@inner
+def _merged_pairs(
+    kept: PackedCrossings, fresh: PackedCrossings, is_changed: Flags
+) -> tuple[Ints, Floats, Ints, Ints]:
+    """Crossings by their robots, and the new number of each that was kept and of each fresh one."""
+    olds, news = kept.robots.shape[0], fresh.robots.shape[0]
+    robots = np.empty((olds + news, 2), np.int64)
+    span = np.empty((olds + news, 4))
+    number, fresh_number = np.full(olds, -1), np.empty(news, np.int64)
+    count, j = 0, 0
+    for i in range(olds + 1):
+        if i < olds and (is_changed[kept.robots[i, 0]] or is_changed[kept.robots[i, 1]]):
+            continue
+        while j < news and (i == olds or _is_before(fresh.robots, j, kept.robots, i)):
+            _put_crossing(robots, span, count, fresh, j)
+            fresh_number[j] = count
+            count, j = count + 1, j + 1
+        if i < olds:
+            _put_crossing(robots, span, count, kept, i)
+            number[i] = count
+            count += 1
+    return robots[:count].copy(), span[:count].copy(), number, fresh_number
+
+
+@inlined
+def _is_before(one: Ints, i: int, other: Ints, j: int) -> bool:
+    return one[i, 0] < other[j, 0] or (one[i, 0] == other[j, 0] and one[i, 1] < other[j, 1])
+
+
+@inlined
+def _put_crossing(robots: Ints, span: Floats, at: int, source: PackedCrossings, i: int) -> None:
+    for side in range(2):
+        robots[at, side] = source.robots[i, side]
+    for k in range(4):
+        span[at, k] = source.span[i, k]
+
+
+@inlined
+def _put_box(
+    to: PackedCrossings, at: int, source: PackedCrossings, i: int, moved: int, number: Ints
+) -> None:
+    to.cell[at] = source.cell[i] + moved
+    to.crossing[at] = number[source.crossing[i]]
+    to.other[at] = source.other[i]
+    to.low[at], to.high[at] = source.low[i], source.high[i]
+
+
+@inner
+def _box_counts(kept: PackedCrossings, fresh: PackedCrossings, number: Ints) -> Ints:
+    """Where the boxes of each robot begin, (n + 1,)."""
+    robots = kept.box_first.size - 1
+    first = np.zeros(robots + 1, np.int64)
+    for robot in range(robots):
+        count = fresh.box_first[robot + 1] - fresh.box_first[robot]
+        for i in range(kept.box_first[robot], kept.box_first[robot + 1]):
+            if number[kept.crossing[i]] >= 0:
+                count += 1
+        first[robot + 1] = first[robot] + count
+    return first
+
+
+@kernel
+def renewed_boxes(
+    kept: PackedCrossings, fresh: PackedCrossings, is_changed: Flags, moved: Ints
+) -> tuple[Ints, Floats, Ints, Ints, Ints, Ints, Floats, Floats]:
+    """The crossings of the fleet: those that stay, and those that are found anew.
+
+    Args:
+        kept: PackedCrossings, from before.
+        fresh: PackedCrossings of the robots that have changed, with whomever.
+        is_changed: These robots, (n,).
+        moved: By how much the numbers of each robot's cells have changed since before, (n,).
+
+    Returns:
+        The fields of ``PackedCrossings``, in their order.
+    """
+    robots, span, number, fresh_number = _merged_pairs(kept, fresh, is_changed)
+    first = _box_counts(kept, fresh, number)
+    boxes = first[first.size - 1]
+    to = PackedCrossings(
+        robots, span, first, np.empty(boxes, np.int64), np.empty(boxes, np.int64),
+        np.empty(boxes, np.int64), np.empty(boxes), np.empty(boxes),
+    )  # fmt: skip
+    at = 0
+    for robot in range(is_changed.size):
+        j, news = fresh.box_first[robot], fresh.box_first[robot + 1]
+        for i in range(kept.box_first[robot], kept.box_first[robot + 1]):
+            if number[kept.crossing[i]] < 0:
+                continue
+            cell, other = kept.cell[i] + moved[robot], kept.other[i]
+            while j < news and (
+                fresh.cell[j] < cell or (fresh.cell[j] == cell and fresh.other[j] < other)
+            ):
+                _put_box(to, at, fresh, j, 0, fresh_number)
+                at, j = at + 1, j + 1
+            _put_box(to, at, kept, i, moved[robot], number)
+            at += 1
+        while j < news:
+            _put_box(to, at, fresh, j, 0, fresh_number)
+            at, j = at + 1, j + 1
+    return robots, span, first, to.cell, to.crossing, to.other, to.low, to.high
