@@ -37,6 +37,19 @@ def test_they_are_those_that_are_found_at_once(seed: int, count: int) -> None:
         assert getattr(found, key).dtype == values.dtype
 
 
+@settings(max_examples=10, deadline=None)
+@given(st.integers(0, 100_000), st.integers(1, 3))
+def test_robots_may_have_come_behind_the_others(seed: int, count: int) -> None:
+    rng = np.random.default_rng(seed)
+    names = [f"r{k}" for k in range(ROBOTS)]
+    paths = [spline(rng) for _ in names]
+    stay = ROBOTS - count
+    old, courses = courses_along(names[:stay], paths[:stay]), courses_along(names, paths)
+    found = renewed_crossings(crossings_of(old), old, courses, np.arange(stay, ROBOTS)).packed
+    for key, values in crossings_of(courses).packed._asdict().items():
+        assert np.array_equal(getattr(found, key), values), key
+
+
 def test_a_robot_that_crosses_nobody_any_more_leaves_no_crossing() -> None:
     rng = np.random.default_rng(3)
     names, paths = ["a", "b", "c"], [spline(rng) for _ in range(3)]

@@ -19,7 +19,7 @@ def renewed_crossings(
     Args:
         before: The crossings as they were.
         old: The courses that they belong to.
-        courses: The courses as they are, of the same robots.
+        courses: The courses as they are, of the same robots, or of some more behind these.
         changed: The robots whose courses are others, (k,).
 
     Raises:
@@ -28,5 +28,7 @@ def renewed_crossings(
     fresh = crossings_of(courses, changed).packed
     is_changed = np.zeros(len(courses.names), np.bool_)
     is_changed[changed] = True
-    moved = courses.packed.first[:-1] - old.packed.first[:-1]
-    return FleetCrossings(PackedCrossings(*renewed_boxes(before.packed, fresh, is_changed, moved)))
+    more = len(courses.names) - len(old.names)
+    kept = before.packed._replace(box_first=np.pad(before.packed.box_first, (0, more), "edge"))
+    moved = courses.packed.first[:-1] - np.pad(old.packed.first[:-1], (0, more))
+    return FleetCrossings(PackedCrossings(*renewed_boxes(kept, fresh, is_changed, moved)))
