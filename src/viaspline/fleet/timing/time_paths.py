@@ -76,11 +76,11 @@ def time_paths(
     if not found.blocked and is_small:
         return found
     search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
-    best, idle = _given_laws(search, found.laws.packed), 0
-    if not is_small:
-        laws = _laws_to_fill(given, left_out)
-        search.first_come(laws)
-        best = min(best, _given_laws(search, laws), key=partial(_lost, search))
+    if is_small:
+        best = _given_laws(search, found.laws.packed)
+    else:
+        best = _best_of_both(search, found, _laws_to_fill(given, left_out))
+    idle = 0
     while best.blocked and idle < MAX_IDLE:
         learned = [(robot, other) for robot, other in found.blocked.items() if other not in settled]
         pairs = np.unique(
@@ -94,6 +94,22 @@ def time_paths(
         if len(found.blocked) < len(best.blocked):
             best, idle = found, 0
     return best
+
+
+def _best_of_both(search: LawSearch, by_priority: Timing, laws: PackedLaws) -> Timing:
+    """The better one of a timing by priority and one by who meets whom first.
+
+    Args:
+        search: What the robots drive among.
+        by_priority: As it is, without laws of those that are blocked in it.
+        laws: Those that are given; written to.
+    """
+    search.first_come(laws)
+    by_meeting = _given_laws(search, laws)
+    if by_priority.blocked and not by_meeting.blocked:
+        return by_meeting  # to look for laws of the blocked ones would take longer than all else
+    other = _given_laws(search, by_priority.laws.packed)
+    return min(other, by_meeting, key=partial(_lost, search))
 
 
 def _lost(search: LawSearch, timing: Timing) -> tuple[int, float]:
