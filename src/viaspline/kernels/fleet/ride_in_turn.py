@@ -15,7 +15,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.blocked_times import comes_between, goes_between
 from viaspline.kernels.fleet.order_state import OrderState
-from viaspline.kernels.fleet.ride_law import Ride, can_slow_at, new_ride, set_times, slow_down
+from viaspline.kernels.fleet.ride_law import Ride, can_slow_at, new_ride, slow_down
 from viaspline.kernels.fleet.yielding_ride import TIME_SLACK_S, RideScene, waits_at
 from viaspline.kernels.jit import inner
 
@@ -103,6 +103,7 @@ def _give_way(scene: RideScene, ride: Ride, entry: int, late: float) -> None:
     courses, rides = scene.courses, scene.rides
     places = waits_at(ride, courses, rides, entry)
     square, waits = ride.square.copy(), ride.waits.copy()
+    arrive, leave = ride.arrive.copy(), ride.leave.copy()
     best, fewest = 0, ALL
     for i in range(places.size):
         slow_down(ride, courses, rides, places[i], entry, late)
@@ -114,9 +115,9 @@ def _give_way(scene: RideScene, ride: Ride, entry: int, late: float) -> None:
             return
         if met < fewest:
             best, fewest = i, met
-        for k in range(since, square.size):
+        for k in range(max(since - 1, 0), square.size):
             ride.square[k], ride.waits[k] = square[k], waits[k]
-        set_times(ride, courses, rides, max(since - 1, 0))
+            ride.arrive[k], ride.leave[k] = arrive[k], leave[k]
     slow_down(ride, courses, rides, places[best], entry, late)
 
 
