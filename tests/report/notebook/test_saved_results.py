@@ -60,6 +60,26 @@ def test_what_is_saved_is_said_and_the_same_every_time(name: str, tmp_path: Path
             assert json.loads(path.read_text())
 
 
+def contents(written: list[Path], folder: Path) -> dict[Path, bytes]:
+    return {path.relative_to(folder): path.read_bytes() for path in written if path.is_file()}
+
+
+@pytest.mark.parametrize("name", SAVED)
+def test_what_is_saved_does_not_depend_on_the_folder(name: str, tmp_path: Path) -> None:
+    value, _ = SAVED[name]
+    one, other = tmp_path / "one", tmp_path / "another"
+    assert contents(value.save(one), one) == contents(value.save(other), other)
+
+
+def test_a_plan_is_called_as_is_asked(tmp_path: Path) -> None:
+    PLAN.save(tmp_path, name="round of the yard")
+    assert (
+        json.loads((tmp_path / "plan.json").read_text())["mission"]["name"] == "round of the yard"
+    )
+    with pytest.raises(vs.GeometryError, match="name is of the class"):
+        PLAN.save(tmp_path, name=5)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("command", ["plan", "run"])
 def test_the_command_line_writes_the_same_files(command: str, tmp_path: Path) -> None:
     file, out = tmp_path / "patrol.yaml", tmp_path / "cli" / "patrol"
@@ -67,7 +87,7 @@ def test_the_command_line_writes_the_same_files(command: str, tmp_path: Path) ->
     done = CliRunner().invoke(cli, [command, str(file), "--out", str(out), "--quiet"])
     assert done.exit_code == 0, done.output
     made = SAVED["plan" if command == "plan" else "run"][0]
-    written = made.save(tmp_path / "api" / "patrol")
+    written = made.save(tmp_path / "api", name="patrol")
     assert {path.name for path in out.iterdir()} - {"timing.json"} == {p.name for p in written}
     for path in written:
         assert path.read_bytes() == (out / path.name).read_bytes(), path.name

@@ -45,15 +45,26 @@ SINGLE_FILES: Final = frozenset(
     }
 )
 """Endings of files that are written alone: what an autopilot or a map takes."""
+MISSION: Final = "mission"
+"""What a mission is called of which nothing else is said,"""
+FLEET: Final = "fleet"
+"""and a fleet."""
 
 
-def save(value: object, path: str | Path, origin: tuple[float, float] | None = None) -> list[Path]:
+def save(
+    value: object,
+    path: str | Path,
+    name: str | None = None,
+    origin: tuple[float, float] | None = None,
+) -> list[Path]:
     """Write a plan or a run.
 
     Args:
         value: It.
-        path: The folder, which is made if it isn't there; its name is that of the mission. With one
-            of the endings of ``SINGLE_FILES`` it is a file, which the exports write.
+        path: The folder, which is made if it isn't there. With one of the endings of
+            ``SINGLE_FILES`` it is a file, which the exports write.
+        name: What the mission is called; None: ``MISSION`` or ``FLEET``, and in a single file what
+            that is called. It isn't taken from the folder: the same plan gives the same bytes.
         origin: Latitude and longitude of the mission's 0, 0 [deg], for files that have them.
 
     Returns:
@@ -61,64 +72,69 @@ def save(value: object, path: str | Path, origin: tuple[float, float] | None = N
 
     Raises:
         OutputError: It can't be written, or there is nobody who writes such a file.
-        GeometryError: ``path`` is no path.
+        GeometryError: ``path`` is no path, or ``name`` no text.
 
     Warns:
         MissionWarning: The mission has a map that was made in memory, so that it can't be a file.
     """
     check_kind("path", path, (str, Path), "give the path of a folder")
+    if name is not None:
+        check_kind("name", name, str, "give a text")
     target = Path(path)
     if target.suffix.lower() in SINGLE_FILES and not target.is_dir():
-        return _exported(value, target, origin)
-    found: list[Path] = opened_for("files", value)(value, target)
+        return _exported(value, target, name, origin)
+    found: list[Path] = opened_for("files", value)(value, target, name)
     return found
 
 
-def _exported(value: object, target: Path, origin: tuple[float, float] | None) -> list[Path]:
+def _exported(
+    value: object, target: Path, name: str | None, origin: tuple[float, float] | None
+) -> list[Path]:
     """What the exports write into a file of their own."""
     if not isinstance(value, Plan | SpatialPlan):
         kind = type(value).__name__
         raise OutputError(target, f"a {kind} isn't written as such a file; give a folder")
-    opened("export")(value, target, origin=origin)
+    opened("export")(value, target, name=name, origin=origin)
     return [target]
 
 
-def plan_files(plan: Plan, folder: Path) -> list[Path]:
+def plan_files(plan: Plan, folder: Path, name: str | None) -> list[Path]:
     """Those of ``viaspline plan`` but for the wall clock's."""
-    name = _name_of(folder)
-    return _written(folder, plan_contents(plan, name) | _mission_in(folder, plan.mission))
+    return _written(
+        folder, plan_contents(plan, name or MISSION) | _mission_in(folder, plan.mission)
+    )
 
 
-def spatial_plan_files(plan: SpatialPlan, folder: Path) -> list[Path]:
+def spatial_plan_files(plan: SpatialPlan, folder: Path, name: str | None) -> list[Path]:
     """Those of ``viaspline plan`` but for the wall clock's."""
-    contents = spatial_plan_contents(plan, _name_of(folder))
+    contents = spatial_plan_contents(plan, name or MISSION)
     return _written(folder, contents | _mission_in(folder, plan.mission))
 
 
-def fleet_plan_files(plan: FleetPlan, folder: Path) -> list[Path]:
+def fleet_plan_files(plan: FleetPlan, folder: Path, name: str | None) -> list[Path]:
     """Those of ``viaspline plan`` but for the wall clock's, with a folder for each robot."""
     check_robot_folders(folder, (one.name for one in plan.fleet.members))
-    files = _written(folder, fleet_contents(plan, _name_of(folder)))
+    files = _written(folder, fleet_contents(plan, name or FLEET))
     return files + write_robots(plan, folder, lambda share: None)
 
 
-def run_files(run: Run, folder: Path) -> list[Path]:
+def run_files(run: Run, folder: Path, name: str | None) -> list[Path]:
     """Those of ``viaspline run`` but for the wall clock's: of the run and of its plan."""
-    name = _name_of(folder)
+    name = name or MISSION
     contents = plan_contents(run.plan, name) | _mission_in(folder, run.plan.mission)
     return _written(folder, contents | run_contents(run, name))
 
 
-def spatial_run_files(run: SpatialRun, folder: Path) -> list[Path]:
+def spatial_run_files(run: SpatialRun, folder: Path, name: str | None) -> list[Path]:
     """Those of ``viaspline run`` but for the wall clock's: of the flight and of its plan."""
-    name = _name_of(folder)
+    name = name or MISSION
     contents = spatial_plan_contents(run.plan, name) | _mission_in(folder, run.plan.mission)
     return _written(folder, contents | spatial_run_contents(run, name))
 
 
-def fleet_run_files(run: FleetRun, folder: Path) -> list[Path]:
+def fleet_run_files(run: FleetRun, folder: Path, name: str | None) -> list[Path]:
     """``run.json``; its picture is one of the plan as well, which a run doesn't hold."""
-    return _written(folder, {"run.json": fleet_run_json(run, _name_of(folder))})
+    return _written(folder, {"run.json": fleet_run_json(run, name or FLEET)})
 
 
 def _mission_in(folder: Path, mission: Mission) -> Contents:
@@ -132,10 +148,6 @@ def _mission_in(folder: Path, mission: Mission) -> Contents:
         with suppress(OSError):
             stale.unlink(missing_ok=True)  # that of an earlier plan isn't this one's
         return {}
-
-
-def _name_of(folder: Path) -> str:
-    return folder.resolve().name or "mission"
 
 
 def _written(folder: Path, contents: Contents) -> list[Path]:
