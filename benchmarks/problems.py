@@ -111,9 +111,11 @@ class Problem:
             "route": {"start": {"at": self.start}, "goal": {"at": self.goal}},
         }
 
-    def mission(self) -> vs.Mission:
-        """As it is asked of the planner."""
-        return vs.Mission.model_validate(self.asked())
+    def mission(self, optimise: str = "time") -> vs.Mission:
+        """As it is asked of the planner, with what a path is to have little of."""
+        asked = self.asked()
+        asked["route"]["optimise"] = optimise
+        return vs.Mission.model_validate(asked)
 
     @cached_property
     def solids(self) -> Solids:

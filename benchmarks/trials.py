@@ -93,9 +93,12 @@ def wrong_path(plan: vs.Plan, problem: Problem, truth: Verdict) -> str:
 
 
 def radii_tried(problem: Problem) -> Outcome:
-    """A problem for ever fatter robots: none finds a way or a shorter one that a thinner lacks."""
+    """A problem for ever fatter robots: none finds a way or a shorter one that a thinner lacks.
+
+    It is the shortest path that is asked for: the soonest one may be longer where there is room.
+    """
     shares = [(f, problem.for_robot(f * problem.required)) for f in (*FATTER, 1.0)]
-    found = [(f, *clock(lambda p=p: planned(p.mission()))) for f, p in shares]
+    found = [(f, *clock(lambda p=p: planned(p.mission("length")))) for f, p in shares]
     lengths = [p.path.length if isinstance(p, vs.Plan) else np.inf for _, _, p in found]
     shortest = np.minimum.accumulate(lengths[::-1])[::-1]  # of this robot and all fatter ones
     wrong = [

@@ -15,7 +15,7 @@ def cache(world, discs, pace=0.02, barriers=NO_BARRIERS):
     speeds = np.hypot(1.0 + np.abs(rows[:, 1]) / RHO, rows[:, 0] / RHO)
     rows = np.ascontiguousarray(np.column_stack((rows, speeds)))
     return CollisionCache(
-        world.packed, frame, np.full((400, 400), np.nan), rows, barriers, np.zeros(1, np.int64)
+        world.packed, frame, np.zeros((400, 400)), rows, barriers, np.zeros(1, np.int64)
     )
 
 

@@ -34,7 +34,8 @@ class CollisionCache(NamedTuple):
         world: PackedWorld.
         frame: Outer corner of cell (0, 0) of the table: x, y; side of a cell; distance between
             the places of a path that are looked at [m], (4,).
-        known: Distances in the middles of the cells, NaN where not yet reckoned, (rows, columns).
+        known: Distances in the middles of the cells, 0 where not yet reckoned, (rows, columns):
+            so the memory of what is never asked is never touched.
         discs: See the columns above; the first one holds the whole body, the others together
             cover it, (d, 4).
         barriers: Segments x0, y0, x1, y1 that the reference point must not cross [m], (b, 4).
@@ -58,7 +59,7 @@ def about(cache: CollisionCache, x: float, y: float) -> float:
     if not (0 <= row < cache.known.shape[0] and 0 <= column < cache.known.shape[1]):
         return 0.0
     value = cache.known[row, column]
-    if math.isnan(value):
+    if value == 0.0:
         middle_x = cache.frame[0] + (column + 0.5) * side
         middle_y = cache.frame[1] + (row + 0.5) * side
         value, _ = nearest(cache.world, middle_x, middle_y, np.inf)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec, TurnOnSpot
@@ -16,12 +17,13 @@ from viaspline.mission.spline_spec import SplineSpec, Tangents
 from viaspline.planning.problem.objective import Objective
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.work_budget import Progress, Value, WorkBudget
+from viaspline.presentable.compared_by_value import ComparedByValue
 
 LEAST_KEPT_M = 1e-5  # even by a point without clearance, so that touching is not crossing
 
 
-@dataclass(frozen=True, kw_only=True)
-class Requirements:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Requirements(ComparedByValue):
     """The robot's needs and the curve's shape.
 
     Attributes:
@@ -75,7 +77,7 @@ class Requirements:
         """
         if self.budget is None:
             return part()
-        return self.budget.once((replace(self, budget=None), asked), part)
+        return self.budget.once((self.unbudgeted, asked), part)
 
     def taken_up(self, asked: Hashable, begin: Callable[[], Progress]) -> Progress:
         """A part of a search that is stopped and goes on; see ``WorkBudget``.
@@ -86,12 +88,17 @@ class Requirements:
         """
         if self.budget is None:
             return begin()
-        return self.budget.taken_up((replace(self, budget=None), asked), begin)
+        return self.budget.taken_up((self.unbudgeted, asked), begin)
 
     def spend_on_part(self, cost: float) -> None:
         """Take off what a step costs of a part that is taken up again; see ``WorkBudget``."""
         if self.budget is not None:
             self.budget.spend_on_part(cost)
+
+    @cached_property
+    def unbudgeted(self) -> Requirements:
+        """These for as long as it takes: parts of searches are kept by them."""
+        return replace(self, budget=None)
 
     @property
     def is_free_disc(self) -> bool:

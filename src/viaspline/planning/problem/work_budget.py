@@ -21,7 +21,7 @@ ROUTE_S, LATTICE_S, GUIDE_S, GUIDE_OBSTACLE_S = 5e-4, 4e-3, 1e-3, 2e-6
 """Of a route between two places; of each lattice and each guide through one that it takes, and of
 pulling that taut for each obstacle of the world [s]."""
 
-CONFLICTS_S, CONFLICTS_SPAN_S, CONFLICTS_BODY_SPAN_S = 3e-5, 1e-6, 4e-6
+CONFLICTS_S, CONFLICTS_SPAN_S, CONFLICTS_BODY_SPAN_S = 1e-4, 1e-6, 4e-6
 """Of looking for conflicts: in all, for each span, and for each span if a polygon drives [s],"""
 
 CONFLICTS_BODY_OBSTACLE_S, CONFLICTS_BODY_OBSTACLES = 2.5e-8, 1000
@@ -32,6 +32,13 @@ PROOF_S, PROOF_SPAN_S, PROOF_BODY_S = 3e-4, 2e-6, 1.5e-3
 
 TURN_PATH_S, TURN_PATH_BEND_S = 5e-5, 2e-5
 """Of a turn path: in all, and for each bend [s]."""
+
+TURN_WISHES_S, LOCAL_LEG_S = 2e-4, 5e-4
+"""Of what its turns should be like, and of a leg that keeps to its line for as long as it may [s].
+"""
+
+PUSH_S = 3e-4
+"""Of a run of spans that is pushed away from what it is too close to [s]."""
 
 STRIP_S, STRIP_SPAN_S = 2e-3, 5e-5
 """To bend a run of a path less, as a strip under tension: in all, and for each of its spans [s]."""

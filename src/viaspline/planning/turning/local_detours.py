@@ -19,6 +19,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.leg_search import LegSearch
+from viaspline.planning.problem.work_budget import LOCAL_LEG_S
 from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
@@ -121,6 +122,7 @@ def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> Leg
     leg, lane = leg_lane.leg, leg_lane.lane
     stays = leg_lane.stays(taut_path)
     needs = leg.requirements
+    needs.spend(LOCAL_LEG_S)
     if needs.detours is None and not (stays and leg_lane.is_long_beside(stays)):
         return None
     on_lane = [end[:2] for end in leg.ends if not leg_lane.is_off(end)]

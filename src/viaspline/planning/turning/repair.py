@@ -14,9 +14,20 @@ from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.turning.tight_place import (
+    ALONG_X,
+    ALONG_Y,
+    GAP,
+    OFF_X,
+    OFF_Y,
+    U,
+    X,
+    Y,
+    tight_place,
+)
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, is_clear, proven
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
+from viaspline.planning.problem.work_budget import PUSH_S, TURN_PATH_BEND_S, TURN_PATH_S
 from viaspline.planning.turning.bend_row import DETOUR, KEPT, RADIUS, SIDE, Bends, bend
 from viaspline.planning.turning.turn_path import (
     RAMP,
@@ -150,7 +161,7 @@ def _stuck_at(
     """Where the first run of spans is too close."""
     hit = np.flatnonzero(close != CLEAR)
     run = np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)[0]
-    tight = _tightest(PiecewiseCubic(turn_path.spans), run, world, requirements)
+    tight = _tightest(turn_path.spans, run, world, requirements)
     return Stuck(((turn_path.bends.leg_of(_row_before(turn_path, tight.u)), tight.wall),))
 
 
@@ -161,19 +172,17 @@ def _pushed(
     bends = turn_path.bends
     hit = np.flatnonzero(close != CLEAR)
     runs = np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)
-    curve = PiecewiseCubic(turn_path.spans)
     for run in reversed(runs):  # from the end, so that the earlier indices stay
-        bends = _push(bends, turn_path, curve, run, world, requirements)
+        bends = _push(bends, turn_path, run, world, requirements)
     return bends
 
 
 def _push(
-    bends: Bends, turn_path: TurnPath, curve: PiecewiseCubic, run: NDArray[np.int64], world: World,
+    bends: Bends, turn_path: TurnPath, run: NDArray[np.int64], world: World,
     requirements: Requirements,
 ) -> Bends:  # fmt: skip
-    tight = _tightest(curve, run, world, requirements)
-    heading = float(curve.heading(tight.u))
-    left = np.array([-np.sin(heading), np.cos(heading)])
+    tight = _tightest(turn_path.spans, run, world, requirements)
+    left = np.array([-tight.along[1], tight.along[0]])
     side = 1.0 if tight.into @ left > 0.0 else -1.0
     row = _row_before(turn_path, tight.u) + 1
     for near in (row - 1, row % len(bends.rows)):
@@ -197,6 +206,7 @@ class _Tight(NamedTuple):
 
     Attributes:
         u: Its parameter.
+        along: The direction of the curve there, a unit vector.
         wall: The surface of what it is too close to [m], (2,).
         into: From there to its inside, a unit vector.
         missing: By how much it is too close [m].
@@ -204,6 +214,7 @@ class _Tight(NamedTuple):
     """
 
     u: float
+    along: Floats
     wall: Floats
     into: Floats
     missing: float
@@ -211,31 +222,48 @@ class _Tight(NamedTuple):
 
 
 def _tightest(
-    curve: PiecewiseCubic, run: NDArray[np.int64], world: World, requirements: Requirements
+    spans: Floats, run: NDArray[np.int64], world: World, requirements: Requirements
 ) -> _Tight:
-    """The tightest place of a run of spans."""
+    """The tightest place of a run of the spans of a curve, (m, 4, 2)."""
+    requirements.spend(PUSH_S)
+    first, last = int(run[0]), int(run[-1])
     if requirements.footprint is not None:
-        part = PiecewiseCubic(curve.spans[run[0] : run[-1] + 1])
-        found = proven(part, world, requirements)
+        found = proven(PiecewiseCubic(spans[first : last + 1]), world, requirements)
         if found.contact is not None:
-            at = np.array(found.contact)
-            into = -_gradient(world, at)
-            wall = at + float(world.distance(at)) * into
             missing = requirements.least - found.clearance
-            # the front may touch where the reference point is yet to come
-            beside = curve.section(
-                float(run[0]), min(run[-1] + SPANS_AHEAD, len(curve.spans))
-            ).project(wall)
-            kept = max(beside.distance + 1.1 * missing, requirements.required)
-            return _Tight(float(run[0] + beside.u), wall, into, missing, kept)
-    places_u = np.linspace(run[0], run[-1] + 1, SAMPLES_PER_SPAN * len(run))
-    places = np.asarray(curve.evaluate(places_u))
-    gaps = world.distance(places)
-    k = int(gaps.argmin())
-    into = -_gradient(world, places[k])
-    missing = max(requirements.required - float(gaps[k]), 0.0)
-    wall = places[k] + float(gaps[k]) * into
-    return _Tight(float(places_u[k]), wall, into, missing, requirements.required)
+            return _touched(spans, (first, last), found.contact, missing, world, requirements)
+    at = tight_place(world.packed, spans[first : last + 1], SAMPLES_PER_SPAN, GRADIENT_STEP_M)
+    gap, into = float(at[GAP]), -at[[OFF_X, OFF_Y]]
+    return _Tight(
+        first + float(at[U]), at[[ALONG_X, ALONG_Y]], at[[X, Y]] + gap * into, into,
+        max(requirements.required - gap, 0.0), requirements.required,
+    )  # fmt: skip
+
+
+def _touched(
+    spans: Floats, run: tuple[int, int], contact: tuple[float, float], missing: float,
+    world: World, requirements: Requirements,
+) -> _Tight:  # fmt: skip
+    """The tightest place of a run on which a polygon touches something with its outline.
+
+    Args:
+        spans: Of the curve, (m, 4, 2).
+        run: The first and the last of them that are too close.
+        contact: The nearest place of the outline [m].
+        missing: By how much it is too near [m].
+        world: What it touches.
+        requirements: The body, and what it keeps.
+    """
+    curve, at = PiecewiseCubic(spans), np.array(contact)
+    into = -_gradient(world, at)
+    wall = at + float(world.distance(at)) * into
+    # the front may touch where the reference point is yet to come
+    ahead = min(run[1] + SPANS_AHEAD, len(spans))
+    beside = curve.section(float(run[0]), ahead).project(wall)
+    u = float(run[0] + beside.u)
+    kept = max(beside.distance + 1.1 * missing, requirements.required)
+    heading = float(curve.heading(u))
+    return _Tight(u, np.array([np.cos(heading), np.sin(heading)]), wall, into, missing, kept)
 
 
 def _gradient(world: World, place: Floats) -> Floats:

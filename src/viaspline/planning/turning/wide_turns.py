@@ -19,7 +19,11 @@ from viaspline.kernels.turning.gentle_lengths import gentle_lengths
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
+from viaspline.planning.problem.work_budget import (
+    TURN_PATH_BEND_S,
+    TURN_PATH_S,
+    TURN_WISHES_S,
+)
 from viaspline.planning.turning.bend_row import HEADING, KEPT, RADIUS, Bends
 from viaspline.planning.turning.joined_bends import (
     TurnWishes,
@@ -88,6 +92,7 @@ class WideTurns:
 
         Bends are joined first where that is gentler, as far as there is room for it.
         """
+        requirements.spend(TURN_WISHES_S)
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
@@ -107,6 +112,7 @@ class WideTurns:
 
     def _joined(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | Ints:
         """The widest turns round a row of bends some of which are joined; see ``_fitted``."""
+        requirements.spend(TURN_WISHES_S)
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return np.arange(len(bends.rows))
@@ -134,7 +140,7 @@ class WideTurns:
 
     def ideal(self, bends: Bends, requirements: Requirements) -> TurnPath | None:
         """The turn path with the widest turns, clear or not; None where they overlap."""
-        requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
+        requirements.spend(TURN_WISHES_S + TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None

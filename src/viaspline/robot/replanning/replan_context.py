@@ -171,7 +171,7 @@ class ReplanContext:
     @property
     def _unbudgeted(self) -> Requirements:
         """What a path keeps: to look at the one that there is, there is always time."""
-        return replace(self.requirements, budget=None)
+        return self.requirements.unbudgeted
 
     def searching(
         self, limit: float, finished: Mapping[Hashable, object] = NOTHING

@@ -9,8 +9,10 @@ import math
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.heap import Heap
@@ -34,6 +36,8 @@ FIRST_SLICE, SLICE = 1000, 5000  # efforts between which a search can be stopped
 MOST_STATES = 1 << 40  # more than any search has
 LEAST_STATES_BEFORE = 800  # that count as those before the first arrival
 MAX_SPREAD_STATES = 3000  # of which some are chosen
+
+Number = TypeVar("Number", np.float64, np.int64)
 
 
 @dataclass(frozen=True)
@@ -98,11 +102,14 @@ class SearchTree:
         tree.cache = self.cache._replace(
             known=self.cache.known.copy(), reckoned=self.cache.reckoned.copy()
         )
-        keys, nodes, size = self.search.heap
-        heap = Heap(keys.copy(), nodes.copy(), size.copy())
-        fields = self.search._asdict() | {"heap": heap}
-        changing = ("nodes", "links", "keys", "cells", "counts", "arrivals", "ends", "meeting")
-        fields |= {name: fields[name].copy() for name in changing}
+        search, count = self.search, int(self.search.counts[NODES])
+        keys, nodes, size = search.heap
+        waiting = int(size[0])
+        heap = Heap(_begun(keys, waiting), _begun(nodes, waiting), size.copy())
+        fields = search._asdict() | {"heap": heap}
+        fields |= {name: _begun(fields[name], count) for name in ("nodes", "links")}
+        whole = ("keys", "cells", "counts", "arrivals", "ends", "meeting")
+        fields |= {name: fields[name].copy() for name in whole}
         tree.search = PoseSearch(**fields)
         return tree
 
@@ -227,6 +234,18 @@ def _bridge(there: SearchTree, back: SearchTree, meeting: Sequence[float] | Floa
 def backwards(segments: Floats) -> Floats:
     """The segments driven from their end."""
     return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
+
+
+def _begun(rows: NDArray[Number], count: int) -> NDArray[Number]:
+    """A copy of rows of which the first ``count`` are in use; the memory of others is left alone.
+
+    Args:
+        rows: (n, ...).
+        count: No more than n.
+    """
+    copied = np.zeros(rows.shape, rows.dtype)
+    copied[:count] = rows[:count]
+    return copied
 
 
 def _empty(

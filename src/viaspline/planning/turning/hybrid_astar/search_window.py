@@ -220,7 +220,7 @@ class SearchWindow:
         return CollisionCache(
             self.world.packed,
             frame,
-            np.full(shape, np.nan),
+            np.zeros(shape),
             self.body.rows(self.rho, 1.0),
             self.barriers,
             np.zeros(1, np.int64),
