@@ -144,6 +144,20 @@ def test_who_has_tried_all_that_he_has_time_for_goes_on_for_a_while_before_he_tr
     assert navs[-1].reached
 
 
+def test_a_robot_that_is_held_where_it_was_keeps_its_time_law_while_it_searches(
+    mission_of: Make, disc_at: Shape, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A law with a limit of the jerk took as long as all the rest of such a step."""
+    monkeypatch.setattr(deadline, "STEP_WORK_S", 1e-3)
+    rock = disc_at(40, 0.3, 2, "rock")
+    navs = steps_of(mission_of([0, 0], [60, 0], unseen=[rock], sensor={"range_m": 30}))
+    pairs = [(one, two) for one, two in pairwise(navs) if one.searches and two.searches]
+    assert sum(bool(two.compute_times) for _, two in pairs) > 3
+    for one, two in pairs:
+        assert two.trajectory is one.trajectory
+    assert navs[-1].reached
+
+
 def test_a_robot_with_a_drive_searches_no_longer_than_until_its_next_command(
     mission_of: Make,
 ) -> None:

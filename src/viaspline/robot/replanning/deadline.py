@@ -135,16 +135,21 @@ def must_brake(context: ReplanContext) -> bool:
 def last_place(context: ReplanContext) -> float:
     """How far the robot goes on while it searches [m]: where it stands there is room to turn away.
 
+    That is where it was held in the step before, as long as there is. It is never held farther on.
+
     Args:
         context: The robot, that can stop before what is in its way.
     """
     low, high = context.stop, context.schedule.looked_at
+    held, room = context.schedule.held_at, ROOM_RATIO * context.requirements.required
     if context.is_clear(high):  # what it passes on a wrong side is not too near
         high = max(low, context.obstruction.free_until)
+    elif low <= held < high and context.is_clear(held + room):
+        return held
     while high - low > SPARE_RATIO * context.requirements.required:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if context.is_clear(middle) else (low, middle)
-    return max(context.stop, low - ROOM_RATIO * context.requirements.required)
+    return min(max(context.stop, low - room), held)
 
 
 def unhurried(context: ReplanContext) -> ReplanContext:

@@ -27,6 +27,9 @@ PATH_END_U = 1e-9
 """A via point whose parameter is nearer than this to the path's end is the goal."""
 
 
+REST_MPS = 1e-9
+"""A robot that is slower is at rest: what a law ends with may be off by rounding [m/s]."""
+
 NOTHING: Mapping[Hashable, object] = MappingProxyType({})
 """What has come before a search that begins."""
 
@@ -72,6 +75,7 @@ class MotionAhead:
             if time > progress.time:
                 distance = max(float(trajectory.state_at(time)[0]), distance)
             speed = float(trajectory.state_at(time)[1])
+            speed = speed if speed > REST_MPS else 0.0
             rest = trajectory.next_rest(distance + SAME_PLACE_M)
         stop = min(distance + speed * speed / (2.0 * task.limits.brake), rest)
         reaction = speed * max(task.reaction - max(time - progress.time, 0.0), 0.0)

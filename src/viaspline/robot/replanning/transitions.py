@@ -78,12 +78,13 @@ def keep_searching(context: ReplanContext, result: ReplanResult) -> Decision:
     """
     assert result.begin_with is not None
     before, schedule = context.schedule, context.schedule
-    held_at = context.stop if must_brake(context) else min(last_place(context), before.held_at)
+    held_at = context.stop if must_brake(context) else last_place(context)
     pending = gone_on(context, result.begin_with, held_at, result.doubt)
     if pending is None:
         return stop_for_good(context, SPENT_AT_REST)
     held = replace(schedule, pending=pending, held_at=held_at)
-    held = rescheduled(context.task, context.progress, context.knowledge, held, context.speed)
+    if before.pending is None or held_at != before.held_at:  # else its law ends there already
+        held = rescheduled(context.task, context.progress, context.knowledge, held, context.speed)
     if before.pending is not None or context.speed == 0.0:
         return Decision(held)
     names = ", ".join(f"'{name}'" for name in context.obstruction.names)
