@@ -25,6 +25,10 @@ CONVERGENCE_TIME_S, CONVERGENCE_DISTANCE_M = 0.6, 0.3
 """Over what a deviation dies out: from sweeps over examples, lags and noise, see
 benchmarks/README.md [s], [m]."""
 
+STEERED_SWING_RAD = 0.2
+"""By so much a heading may be off and steering still keeps up with what control asks of it, so that
+it dies out: of 0.05 to 0.45 this is off least over slow steering and noise [rad]."""
+
 LAGS_PER_LOOP = 4.0
 """A control loop is so many times slower than its lag: then it is damped well."""
 
@@ -62,17 +66,18 @@ def drive_model_of(robot: RobotSpec, period: float = PERIOD_S) -> DriveModel:
     turn, turn_rate = YAW_RESERVE * yaw, YAW_RESERVE * yaw_accel
     if actuators.wheelbase > 0.0:
         turn, turn_rate = actuators.max_steer, actuators.max_steer_rate
+    speed = robot.max_speed_mps
     return DriveModel(
         actuators=actuators,
         max_turn=turn,
         max_turn_rate=turn_rate,
-        max_speed=robot.max_speed_mps,
+        max_speed=speed,
         max_accel=ACCEL_RESERVE * max(robot.max_accel_mps2, robot.max_brake_mps2 or 0.0),
         delay=0.0 if drive is None else drive.delay_s,
         lag=lag,
         spot_rate=min(SPOT_RATE_RADPS, yaw, _spot_rate(actuators)),
         convergence_time=max(CONVERGENCE_TIME_S, LAGS_PER_LOOP * lag),
-        convergence_distance=CONVERGENCE_DISTANCE_M,
+        convergence_distance=max(CONVERGENCE_DISTANCE_M, steered_distance(actuators, speed)),
         along_gain=min(ALONG_GAIN_PER_S, slow),
         heading_gain=min(HEADING_GAIN_PER_S, slow),
         slack=SLACK_M + 3.0 * noise,
@@ -80,6 +85,31 @@ def drive_model_of(robot: RobotSpec, period: float = PERIOD_S) -> DriveModel:
         speed_noise=0.0 if drive is None else drive.speed_noise_mps,
         yaw_noise=0.0 if drive is None else math.radians(drive.yaw_rate_noise_degps),
     )
+
+
+def steered_distance(actuators: Actuators, speed: float) -> float:
+    r"""The least distance over which steering of a limited rate lets a deviation die out [m].
+
+    Over the distance L a heading that is off by h asks for the curvature 2 h / L, so for the
+    steering angle 2 w h / L with the wheelbase w, and for that again and again within the time
+    L / v. Steering that turns no faster than r keeps up with that while
+    :math:`L^2 \ge 2 w h v / r`; on a shorter L it is late, and the robot swings ever farther.
+
+    Args:
+        actuators: Of the drive; its steering rate is infinite if it has no limit [rad/s].
+        speed: Its greatest [m/s].
+    """
+    if actuators.wheelbase <= 0.0:
+        return 0.0
+    asked = 2.0 * actuators.wheelbase * STEERED_SWING_RAD * speed
+    return math.sqrt(asked / actuators.max_steer_rate)
+
+
+def steers_slowly(robot: RobotSpec) -> bool:
+    """Whether it is its steering that tells how soon a robot at full speed is back on its path."""
+    actuators = Actuators() if robot.drive is None else robot.drive.kind.actuators()
+    at_speed = CONVERGENCE_TIME_S * robot.max_speed_mps
+    return steered_distance(actuators, robot.max_speed_mps) > max(CONVERGENCE_DISTANCE_M, at_speed)
 
 
 def _spot_rate(actuators: Actuators) -> float:
