@@ -24,7 +24,7 @@ ERROR_MARGIN = 1.5
 drives of some minutes the largest is about four standard deviations, so this covers six."""
 
 SLOW_TRIAL_SEEDS, SLOW_ERROR_MARGIN = (*TRIAL_SEEDS, *range(7004, 7010)), 2.0
-"""The same of robots that steer slowly: what throws them off differs more from drive to drive. Of
+"""Those for robots that steer slowly: what throws them off differs more from drive to drive. Of
 400 drives with rates from 2 to 90 deg/s 30 were farther off than the others keep, 1 than these."""
 
 SLALOM_BENDS = 6
