@@ -79,7 +79,7 @@ def test_rows_after_a_stuck_one_are_tried_in_their_turn() -> None:
     assert cheapest_laid([row(5.0)], attempt, LENGTH, best=Laid(8.0)) == Laid(8.0)
 
 
-def test_rows_of_one_length_are_one_and_are_found_only_when_they_are_needed() -> None:
+def test_rows_that_lie_alike_are_one_and_are_found_only_when_they_are_needed() -> None:
     asked: list[float] = []
 
     def others() -> Iterator[TautRow]:
@@ -92,6 +92,29 @@ def test_rows_of_one_length_are_one_and_are_found_only_when_they_are_needed() ->
 
     assert cheapest_laid([row(5.0), row(5.0 + 1e-9)], attempt, LENGTH) == Laid(20.0)
     assert asked == [5.0, 0.0, 6.0]
+
+
+def test_ways_of_one_length_on_either_side_are_two() -> None:
+    """A disc in the middle of a leg is as far round on the left as on the right."""
+    tried = 0
+
+    def attempt(one: TautRow, bound: float) -> Attempt[Laid]:
+        nonlocal tried
+        tried += 1
+        return Attempt(Laid(20.0 + one.taut_paths[0].corners[1, 1]))
+
+    left, right = past(2.0), past(-2.0)
+    assert left.is_same(past(2.0))
+    assert not left.is_same(right)
+    assert cheapest_laid([left, right], attempt, LENGTH) == Laid(18.0)
+    assert tried == 2
+
+
+def past(off: float) -> TautRow:
+    """From (0, 0) to (10, 0) over a place to the left of the line."""
+    corners = np.zeros((3, 8))
+    corners[:, :2] = (0, 0), (5, off), (10, 0)
+    return TautRow.of([TautPath.through(corners)])
 
 
 def test_the_segment_across_a_gap_goes_from_wall_to_wall() -> None:

@@ -29,7 +29,6 @@ from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
 LEAST_GAIN = 1e-6  # part of the length by which another row has to be shorter
-SAME_LENGTH_M = 1e-6  # taut paths of a leg whose lengths differ by less are one
 GAP_END = 1e-3  # distance at which the segment across a gap ends, in required distances
 MAX_RAY_STEPS = 200  # of such a segment to either side
 
@@ -74,12 +73,9 @@ class TautRow:
         return sum(taut_path.length for taut_path in self.taut_paths)
 
     def is_same(self, other: TautRow) -> bool:
-        """Whether every leg has the taut path of another row, as its length tells.
-
-        The lengths of the rows don't: laps have legs that are alike.
-        """
+        """Whether every leg has the taut path of another row."""
         return all(
-            abs(mine.length - its.length) <= SAME_LENGTH_M
+            mine is its or mine.is_same(its)
             for mine, its in zip(self.taut_paths, other.taut_paths, strict=True)
         )
 

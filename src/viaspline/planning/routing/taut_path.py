@@ -6,6 +6,7 @@ Tested through ``planning/routing/test_router``.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.routing.tangent_arcs import bends_of, detour_points, taut_length
 from viaspline.kernels.routing.tangent_graph import barrier_crossings
 from viaspline.kernels.world.corner_fans import X, Y
+
+SAME_M = 1e-6  # paths whose lengths or places differ by less are one
+PLACES = 16  # along a path, at which another is looked for
 
 
 @dataclass(frozen=True)
@@ -40,6 +44,21 @@ class TautPath:
     def turns(self) -> Floats:
         """The corners between start and goal [m], shape (n, 2): their polyline is clear."""
         return np.ascontiguousarray(self.corners[1:-1, X : Y + 1])
+
+    @cached_property
+    def _places(self) -> Floats:
+        """Places along its corners, equally far from each other [m], (PLACES, 2)."""
+        at = self.corners[:, [X, Y]]
+        along = np.concatenate(([0.0], np.hypot(*np.diff(at, axis=0).T).cumsum()))
+        wanted = np.linspace(0.0, along[-1], PLACES)
+        places: Floats = np.column_stack([np.interp(wanted, along, axis) for axis in at.T])
+        return places
+
+    def is_same(self, other: TautPath) -> bool:
+        """Whether another path lies where it does: by other sides one may be as long as it."""
+        if abs(self.length - other.length) > SAME_M:
+            return False
+        return bool(np.abs(self._places - other._places).max() <= SAME_M)
 
     def points(self, efforts: Floats) -> tuple[Floats, Ints]:
         """Detour via points along its bends; see ``tangent_arcs.detour_points``.
