@@ -18,7 +18,7 @@ def test_a_place_may_go_as_far_as_it_keeps_clear(off: float) -> None:
     normals = np.tile([0.0, 1.0], (4, 1))
     low, high = np.full(4, -np.inf), np.full(4, np.inf)
     reach, rooms = np.empty(4), np.empty(4)
-    spans = strip_spans(places, normals, np.full((2, 2), np.nan), False)
+    spans = strip_spans(places, normals, np.full((2, 2), np.nan))
     strip_room(world.packed, places, normals, spans, 1.0, low, high, reach, rooms)
     room = abs(off) - 2.0
     assert rooms[1:3] == pytest.approx(room)

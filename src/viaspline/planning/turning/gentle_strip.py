@@ -19,10 +19,8 @@ from viaspline.planning.turning.tension_search import RunPrice, TensionSearch, T
 from viaspline.world.world import World
 
 MOST_TENSIONS = 8  # that are tried
-MOST_ROUNDS = 10  # of moving places at each of them
 MOST_RESTLESS = 1  # of them, at which places don't come to rest: no more are tried
 SETTLED, NEARLY_SETTLED = 0.02, 0.1  # of what is required: places move by less in the last round
-ROOM = 0.05  # of that: as much of what is kept may be missing in it
 
 
 def gentle_strip(
@@ -45,9 +43,9 @@ def gentle_strip(
         return None
     tension, restless = search.first / run.length, 0
     for _ in range(MOST_TENSIONS):
-        moved, is_settled = _moved(strip, tension, NEARLY_SETTLED)
+        moved = strip.settled(tension, NEARLY_SETTLED)
         search = search.having(_tried(strip, moved, tension, price))
-        restless += not is_settled
+        restless += not moved.is_settled
         following = search.following
         if following is None or restless > MOST_RESTLESS:
             break
@@ -55,8 +53,9 @@ def gentle_strip(
     chosen = search.chosen
     if chosen is None:
         return None
-    strip, is_settled = _moved(chosen.strip.finer(), chosen.tension, SETTLED)
-    return strip.laid if is_settled and price.is_gentler(bending(strip.spans)[0]) else None
+    strip = chosen.strip.finer().settled(chosen.tension, SETTLED)
+    is_gentler = strip.is_settled and price.is_gentler(bending(strip.spans)[0])
+    return strip.laid if is_gentler else None
 
 
 def _tried(strip: TenseStrip, moved: TenseStrip, tension: float, price: RunPrice) -> Tried:
@@ -64,14 +63,3 @@ def _tried(strip: TenseStrip, moved: TenseStrip, tension: float, price: RunPrice
     if moved.has_kink:
         return Tried(tension, strip, math.inf, math.inf)
     return Tried(tension, moved, price.time_of(moved.spans, moved.joints), bending(moved.spans)[0])
-
-
-def _moved(strip: TenseStrip, tension: float, settled: float) -> tuple[TenseStrip, bool]:
-    """A strip at a tension after some rounds, and whether it is settled."""
-    for _ in range(MOST_ROUNDS):
-        strip, moved = strip.bent(tension)
-        if strip.has_kink:
-            return strip, False
-        if moved < settled * strip.required and strip.room > -settled * ROOM * strip.required:
-            return strip, True
-    return strip, False

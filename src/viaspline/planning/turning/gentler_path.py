@@ -74,7 +74,7 @@ def _in_runs(problem: DrivenProblem, laid: SplinePath) -> RunsOfPath:
     )
     stands = np.array([sequence.stands(k) for k in range(len(laid.joints))])
     given = sequence.start_tangent is not None, sequence.end_tangent is not None
-    return RunsOfPath.of(planar, _on_lanes(problem, laid), stands, given, sequence.closed)
+    return RunsOfPath.of(planar, _on_lanes(problem, laid), stands, given)
 
 
 def _on_lanes(problem: DrivenProblem, laid: SplinePath) -> Flags:

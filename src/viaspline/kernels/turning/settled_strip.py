@@ -1,0 +1,156 @@
+"""A strip under tension between what stands beside it: its places are moved until they rest.
+
+Tested through ``planning/methods/test_bent_gently``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.turning.bent_strip import bent_strip
+from viaspline.kernels.turning.strip_places import sharpest_step, strip_normals, strip_places
+from viaspline.kernels.turning.strip_room import strip_room
+from viaspline.kernels.turning.strip_spans import strip_spans
+from viaspline.kernels.world.packed import PackedWorld
+
+STEP = 6.0  # between places, in required distances, at most
+LEAST_PLACES, MOST_PLACES = 16, 400  # of a leg, of the path
+TURN_RAD = 0.2  # from place to place, at most
+SLACK = 1e-3  # of what is required, that is kept beyond it
+LEAST_ROOM_M = 1e-5  # between bounds, where there is none
+MOST_TURNED = 0.3  # that a step is turned by at once [rad]
+KINK_RAD = 1.0  # from step to step
+LITTLE_TURNED = 0.03  # the same, for which places need not be laid anew [rad]
+MOST_ROUNDS = 10  # of moving places
+ROOM = 0.05  # of what places may still move where they rest: as much of what is kept may be missing
+
+
+class StripPlaces(NamedTuple):
+    """Places on rays across a path, and what is known of the room on both sides of it.
+
+    Attributes:
+        places: [m], (n, 2).
+        joints: Which of them are via points, (k,).
+        fixed: Which of them stay, (n,): via points, and those beside given ends, which the spline
+            lays.
+        normals: Along which they move, to the left, (n, 2).
+        spans: The curve through them: Bézier control polygons [m], (n - 1, 4, 2).
+        low: How far to the left each has to move at least [m], (n,).
+        high: How far at most [m], (n,).
+        reach: How far at once, either way [m], (n,).
+        rooms: The room beyond what is required about each of them [m], (n,).
+    """
+
+    places: Floats
+    joints: Ints
+    fixed: Flags
+    normals: Floats
+    spans: Floats
+    low: Floats
+    high: Floats
+    reach: Floats
+    rooms: Floats
+
+
+@inner
+def _looking(
+    world: PackedWorld, required: float, ends: Floats, places: Floats, joints: Ints, fixed: Flags,
+    normals: Floats, low: Floats, high: Floats,
+) -> StripPlaces:  # fmt: skip
+    """A strip at places, with a look at the room that it has there."""
+    spans = strip_spans(places, normals, ends)
+    reach, rooms = np.empty(low.size), np.empty(low.size)
+    kept = (1.0 + SLACK) * required
+    strip_room(world, places, normals, spans, kept, low, high, reach, rooms)
+    return StripPlaces(places, joints, fixed, normals, spans, low, high, reach, rooms)
+
+
+@kernel
+def placed_strip(
+    world: PackedWorld, required: float, ends: Floats, fineness: float, spans: Floats, joints: Ints
+) -> StripPlaces:
+    """A strip as a curve lies, with nothing known of the room beside it but what it sees there.
+
+    Args:
+        world: What to keep clear of.
+        required: What is kept from it [m].
+        ends: Directions in which it leaves its start and comes to its end, unit vectors, nan where
+            it is free, (2, 2).
+        fineness: By how much nearer to each other places are than usual.
+        spans: The curve: Bézier control polygons [m], (m, 4, 2).
+        joints: The span that begins at each via point, its start among them; m at its end, (k,).
+    """
+    places, at = strip_places(
+        spans, joints, STEP * required / fineness, TURN_RAD / fineness, LEAST_PLACES, MOST_PLACES
+    )
+    count = places.shape[0]
+    low, high = np.full(count, -np.inf), np.full(count, np.inf)
+    fixed = np.zeros(count, np.bool_)
+    fixed[at] = True
+    fixed[1] |= not math.isnan(ends[0, 0])
+    fixed[count - 2] |= not math.isnan(ends[1, 0])
+    return _looking(world, required, ends, places, at, fixed, strip_normals(places), low, high)
+
+
+@inner
+def _moved(
+    world: PackedWorld,
+    required: float,
+    ends: Floats,
+    fineness: float,
+    strip: StripPlaces,
+    tension: float,
+) -> tuple[StripPlaces, float]:
+    """A strip with its places moved to where that costs least, and by how much at most [m]."""
+    count = strip.low.size
+    lower, upper = np.maximum(strip.low, -strip.reach), np.minimum(strip.high, strip.reach)
+    for j in range(count):
+        if lower[j] > upper[j] - LEAST_ROOM_M:
+            middle = 0.5 * (lower[j] + upper[j])
+            lower[j], upper[j] = middle - LEAST_ROOM_M, middle + LEAST_ROOM_M
+    moved, _, turned = bent_strip(strip.places, strip.normals, lower, upper, strip.fixed, tension)
+    moved *= min(1.0, MOST_TURNED / max(turned, 1e-12))
+    places, low, high = strip.places.copy(), strip.low - moved, strip.high - moved
+    most = 0.0
+    for j in range(count):
+        most = max(most, abs(moved[j]))
+        for axis in range(2):
+            places[j, axis] += moved[j] * strip.normals[j, axis]
+    if turned > LITTLE_TURNED:
+        spans = strip_spans(places, strip.normals, ends)
+        return placed_strip(world, required, ends, fineness, spans, strip.joints), most
+    at = strip.joints, strip.fixed, strip.normals
+    return _looking(world, required, ends, places, at[0], at[1], at[2], low, high), most
+
+
+@kernel
+def settled_strip(
+    world: PackedWorld, required: float, ends: Floats, fineness: float, strip: StripPlaces,
+    tension: float, settled: float,
+) -> tuple[StripPlaces, bool]:  # fmt: skip
+    """A strip at a tension after some rounds of moving its places.
+
+    Args:
+        world: What to keep clear of.
+        required: What is kept from it [m].
+        ends: See ``placed_strip``.
+        fineness: By how much nearer to each other places are than usual.
+        strip: As it is.
+        tension: What a metre of length is priced at [1/m²].
+        settled: It rests where no place moves by more, in required distances.
+
+    Returns:
+        It, and whether it rests; where it doesn't it may have a kink.
+    """
+    for _ in range(MOST_ROUNDS):
+        strip, most = _moved(world, required, ends, fineness, strip, tension)
+        if not sharpest_step(strip.places) < KINK_RAD:
+            return strip, False
+        if most < settled * required and strip.rooms.min() > -settled * ROOM * required:
+            return strip, True
+    return strip, False
