@@ -82,3 +82,28 @@ def test_among_thousands_of_discs_a_slimmer_robot_has_no_longer_way(seed: int) -
     lengths = [_among_many(seed, required) for required in (0.0256, 0.0512, 0.064)]
     assert lengths[0] <= lengths[1] * (1.0 + 1e-4)
     assert lengths[1] <= lengths[2] * (1.0 + 1e-4)
+
+
+@pytest.mark.parametrize("heading", [None, 40.0])
+@pytest.mark.parametrize("disc", [(25.0, -4.0, 2.0), (60.0, 18.0, 3.0)])
+def test_no_path_by_time_is_shorter_and_none_is_sharper_than_the_robot(
+    heading: float | None, disc: tuple[float, float, float]
+) -> None:
+    """The first disc is beside the way, the second on it; either way the via point is a corner."""
+    plans = {}
+    for optimise in ("length", "time"):
+        plans[optimise] = vs.plan(vs.Mission.model_validate({
+            "world": {"known": [{"circle": {"center": disc[:2], "radius": disc[2]}}]},
+            "robot": {"radius_m": 0.6, "clearance_m": 0.4, "max_speed_mps": 2.0},
+            "route": {
+                "start": {"at": [0, 0], "heading_deg": heading},
+                "via": [[50, 20]],
+                "goal": [100, 0],
+                "optimise": optimise,
+            },
+        }))  # fmt: skip
+    length = plans["length"].path.length
+    assert length <= plans["time"].path.length
+    assert length >= 2.0 * np.hypot(50, 20)
+    assert plans["length"].drivability.sharpest_radius >= 0.6
+    assert not plans["length"].drivability.reasons

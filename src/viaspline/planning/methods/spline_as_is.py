@@ -17,10 +17,10 @@ from viaspline.planning.turning.driven_problem import DrivenProblem
 class SplineAsItIs:
     """Takes the spline, if it was not led round anything and the robot can drive it.
 
-    Where the mission doesn't say how taut it is to be, turns may be faster. A bend that is sharper
-    than the robot itself never is, whatever a time law for points says: it is what remains where
-    nothing else is found. So it is where lanes are to be kept: it swings out between via points, or
-    goes straight to the next one from beside a lane.
+    Where the mission doesn't say how taut it is to be, turns may be faster, or shorter. A bend that
+    is sharper than the robot itself never is, whatever a time law for points says: it is what
+    remains where nothing else is found. So it is where lanes are to be kept: it swings out between
+    via points, or goes straight to the next one from beside a lane.
     """
 
     def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
@@ -30,7 +30,7 @@ class SplineAsItIs:
             return GaveUp(("the spline as it is",))
         if needs.detours == "local":
             return Found(spline_path, math.inf, is_settled=False)
-        if needs.has_own_tension or not needs.objective.is_time:
+        if needs.has_own_tension:
             return Found(spline_path, problem.cost(spline_path))
         is_last = problem.keeps_lanes or not problem.is_round(spline_path.spans)
         cost = math.inf if is_last else problem.cost(spline_path)

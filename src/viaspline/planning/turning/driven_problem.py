@@ -76,7 +76,10 @@ class DrivenProblem(PathProblem):
         if self.requirements.turn_radius is not None:
             return (least,)
         wide = tuple(part * self.requirements.required for part in FREE_TURN_RADII)
-        return (*wide, least) if self._takes_wide_turns else (least, *reversed(wide))
+        if self._takes_wide_turns:
+            return (*wide, least)
+        own = OVERSHOOT * self.requirements.outer_radius
+        return (own, least, *reversed(wide)) if own > least else (least, *reversed(wide))
 
     @property
     def sharpest(self) -> float:

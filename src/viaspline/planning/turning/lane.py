@@ -37,8 +37,10 @@ class Lane:
     def seen(self, places: Floats) -> Floats:
         """Places (..., 2) as distances along the line and to the left of it [m], (..., 2)."""
         off = places[..., :2] - self.start
-        left = self.along[0] * off[..., 1] - self.along[1] * off[..., 0]
-        return np.stack((off @ self.along, left), axis=-1)
+        found = np.empty_like(off)
+        found[..., 0] = off @ self.along
+        found[..., 1] = self.along[0] * off[..., 1] - self.along[1] * off[..., 0]
+        return found
 
     def at(self, along: float, left: float = 0.0) -> Floats:
         """The place so far along the line and to the left of it [m], (2,)."""
