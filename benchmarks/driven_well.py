@@ -10,6 +10,8 @@
     street           what the street example loses to its corners
     straight         vector worlds at 5 m/s, 1 m/s²: time over that of the straight line; 40
     sharp            random missions of four via points: how many are sharp, or turn back; 1,000
+    signs            random missions, vector worlds, crops, rooms: how many turn the other way more
+                     than twice as often as the taut route and twice for each via point; 20 each
     lanes            share of lanes over a lake that the path stays within 1 m of, and of how many
                      it is less than 1 - 4 x (island's width / lane); 20
     times            of a plan: vector worlds, crops of the maps in FOLDER; 20
@@ -154,6 +156,28 @@ def sharp(asked: argparse.Namespace) -> None:
     print(f"with a span that nearly turns back on itself: {turned:.2%}")
 
 
+def signs(asked: argparse.Namespace) -> None:
+    kinds: dict[str, Callable[[int], vs.Mission]] = {
+        "four vias": four_vias, "vector": vector_world, "crops": lambda k: crop(k, asked.maps),
+        "rooms": rooms,
+    }  # fmt: skip
+    for name, make in kinds.items():
+        found = []
+        for mission in map(make, seeds(asked, 20)):
+            try:
+                driven = DrivenPlan.of(with_detours(mission, asked))
+            except vs.PlanningError:
+                continue
+            allowed = 2 * turning_sides(driven.taut) + 2 * len(mission.route.via)
+            found.append((driven.shape.sign_changes(), allowed))
+        changes, allowed = np.array(found).T
+        print(
+            f"{name:10s} {len(found):4d} planned; changes of sign: median {np.median(changes):.0f},"
+            f" most {changes.max()}; more than allowed: {np.sum(changes > allowed)}",
+            flush=True,
+        )
+
+
 def lanes(asked: argparse.Namespace) -> None:
     print("lake  lanes  share kept  worst lane  taut routes'  time s")
     kept: list[float] = []
@@ -236,6 +260,7 @@ TABLES: dict[str, Callable[[argparse.Namespace], None]] = {
     "street": street,
     "straight": straight,
     "sharp": sharp,
+    "signs": signs,
     "lanes": lanes,
     "times": times,
 }
