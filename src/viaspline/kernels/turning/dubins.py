@@ -13,6 +13,7 @@ from viaspline.kernels.jit import inner
 
 WHOLE_TURN_RAD = 2.0 * math.pi
 CLOSED_TURN_RAD = 1e-9  # an angle that is short of a whole turn by less is none [rad]
+ON_CIRCLE = 1e-12  # a place that is so little inside of the turning circle is on it, in its square
 
 
 @inner
@@ -82,8 +83,8 @@ def length_to_place(dx: float, dy: float, heading: float, rho: float) -> float:
     x = (c * dx + s * dy) / rho
     y = abs(c * dy - s * dx) / rho
     squared = x * x + (y - 1.0) * (y - 1.0)
-    if squared >= 1.0:  # a turn to its side, and the tangent
-        line = math.sqrt(squared - 1.0)
+    if squared >= 1.0 - ON_CIRCLE:  # a turn to its side, and the tangent
+        line = math.sqrt(max(squared - 1.0, 0.0))
         turn = math.atan2(x, 1.0 - y) - math.atan2(line, 1.0)
         return rho * (positive(turn) + line)
     far = math.hypot(x, y + 1.0)  # it is too near: first to the other side
