@@ -220,7 +220,7 @@ def test_it_never_touches_what_its_sensor_shows_in_time(
 @given(st.integers(0, 10_000))
 @example(153)  # each stopped in a turn, and went on with its wheels straight
 @example(439)
-@settings(deadline=None, max_examples=5)
+@settings(deadline=None, max_examples=3)
 def test_what_is_driven_past_unseen_obstacles_goes_on_as_it_was_at_every_new_path(
     disc_at: Shape, detours: str | None, seed: int
 ) -> None:

@@ -237,6 +237,18 @@ def test_the_arrays_are_read_only_and_a_delay_moves_time_alone() -> None:
     assert later.distances is law.distances
 
 
+@settings(max_examples=200, deadline=None)
+@given(speed=st.floats(0.01, 3.0), brake=st.floats(0.2, 3.0), begin=st.floats(0.0, 100.0))
+def test_who_has_braked_stands_without_a_hair_of_speed(
+    speed: float, brake: float, begin: float
+) -> None:
+    """With 3e-16 m/s left a robot before a goal that was taken looked for a way on for ever."""
+    law = braking(5.0, speed, max_accel=brake, start_time=begin)
+    later = np.array([law.end_time, np.nextafter(law.end_time, np.inf), law.end_time + 1.0])
+    assert (law.state_at(later)[1] == 0.0).all()
+    assert all(float(law.state_at(float(time))[1]) == 0.0 for time in later)
+
+
 def test_braking_stops_after_v_squared_over_two_a() -> None:
     law = braking(10.0, speed=3.0, max_accel=1.5, start_time=7.0)
     assert law.distances == pytest.approx([10, 13])

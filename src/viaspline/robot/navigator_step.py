@@ -221,8 +221,10 @@ def _decided(now: _StepSoFar) -> _StepSoFar:
 
 
 def _given_way(now: _StepSoFar) -> _StepSoFar:
-    """What does it do about what moves?"""
-    if not len(now.knowledge.moving) or rests(now.knowledge, now.schedule, now.time):
+    """What does it do about what moves? Who waited for what is gone from sight goes on."""
+    waits = now.schedule.gives_way and not now.schedule.waits_for_gap
+    is_free = not len(now.knowledge.moving) and not waits
+    if is_free or rests(now.knowledge, now.schedule, now.time):
         return now
     decision = give_way(now.task, now.progress, now.knowledge, now.schedule)
     log = now.log.with_decision(decision, 0.0)

@@ -252,13 +252,15 @@ class Trajectory(ShownValue, ComparedByValue):
             distance = _within(
                 self.distances[i] + states[0], self.distances[i], self.distances[i + 1]
             )
-            return distance[()], np.maximum(states[1], 0.0)[()], (states[2] * moving)[()]
+            speed = np.where(t < self.times[-1], np.maximum(states[1], 0.0), self.speeds[-1])
+            return distance[()], speed[()], (states[2] * moving)[()]
         first, acceleration = self.speeds[i], self.accelerations[i]
         distance = self.distances[i] + (first + 0.5 * acceleration * late) * late
         second = self.speeds[i + 1]
         speed = _within(
             first + acceleration * late, np.minimum(first, second), np.maximum(first, second)
         )
+        speed = np.where(t < self.times[-1], speed, self.speeds[-1])  # whatever the rounding says
         acceleration = acceleration * ((t == time) & (t < self.times[-1]))
         return (
             _within(distance, self.distances[i], self.distances[i + 1])[()],

@@ -91,6 +91,7 @@ def _meet_seldom() -> None:
     from viaspline.curve.path import Path
     from viaspline.kernels.routing.narrow_gaps import narrow_places
     from viaspline.mission.shapes.obstacle import Obstacle
+    from viaspline.planning.routing.bottleneck import bottleneck_between
     from viaspline.trajectory.limits import Limits
     from viaspline.trajectory.yielding.law_among import law_among
     from viaspline.world.moving_obstacles import MovingObstacles
@@ -98,6 +99,8 @@ def _meet_seldom() -> None:
 
     rock = Obstacle(circle={"center": (5, 1), "radius": 0.5})
     narrow_places(World([rock]).packed, np.array([[0.0, 0.0], [9.0, 0.0]]), 0.3)
+    walled = World([rock], bounds=(0.0, -1.0, 10.0, 2.0))
+    bottleneck_between(walled, np.array([1.0, 0.0]), np.array([9.0, 0.0]), 2.0)
     line = Path([[[0, 0], [10, 0], [20, 0], [30, 0]]], vias=[])
     motion = {"from": (15, -8), "velocity_mps": (0, 1)}
     cart = Obstacle(circle={"center": (0, 0), "radius": 1}, motion=motion)

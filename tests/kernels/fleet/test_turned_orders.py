@@ -80,6 +80,7 @@ def test_those_that_are_fixed_keep_their_laws_to_the_bit() -> None:
     assert laws.arrive[nodes].tobytes() == better.arrive[nodes].tobytes()
 
 
+@pytest.mark.long_without_jit
 def test_the_same_work_gives_the_same_bytes() -> None:
     lines = lines_without_rests_in_the_way(3, 9)
     _, _, one = before_and_after(lines, 100_000)

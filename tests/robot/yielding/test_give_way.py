@@ -15,12 +15,12 @@ from viaspline.robot.navigator import Navigator
 from viaspline.robot.yielding.ways_past import WAYS_WORK_S, try_ways
 
 
-def crossing(*moving: dict[str, Any], **robot: Any) -> vs.Mission:
+def crossing(*moving: dict[str, Any], goal_x: float = 24.0, **robot: Any) -> vs.Mission:
     return vs.Mission.model_validate(
         {
             "world": {"unseen": list(moving)},
             "robot": {"radius_m": 0.25, "clearance_m": 0.1, "sensor": {"range_m": 10}, **robot},
-            "route": {"start": [0, 0], "goal": [24, 0]},
+            "route": {"start": [0, 0], "goal": [goal_x, 0]},
         }
     )
 
@@ -103,6 +103,21 @@ def test_a_robot_at_which_something_turns_gets_out_of_its_way() -> None:
     assert run.reached
     assert run.encounters is not None
     assert run.encounters.contacts == ()
+
+
+def test_a_robot_goes_on_when_all_that_it_waited_for_is_gone_from_sight() -> None:
+    """It stood for ever: nothing that moved was left to look at."""
+    to_and_fro = [(t, 3.0, 0.3 * (-1) ** t) for t in range(9)]
+    restless = {
+        "name": "restless",
+        "circle": {"center": [0, 0], "radius": 0.5},
+        "motion": {"keyframes": to_and_fro, "after": "vanish"},
+    }
+    mission = crossing(restless, goal_x=6.0, sensor={"range_m": 0.8})
+    run = vs.simulate(mission, step=0.1)
+    assert run.encounters is not None
+    assert run.duration > 8.0
+    np.testing.assert_allclose(run.positions[-1], (6.0, 0.0), atol=1e-6)
 
 
 def test_a_wall_of_them_touches_no_robot_under_way_that_is_to_be_at_rest_in_time() -> None:

@@ -14,7 +14,7 @@ from viaspline.trajectory.passive_safety import passive_law
 TOP_MPS = 1.5
 
 
-def among(seed: int, safety: str, **robot: Any) -> vs.Mission:
+def among(seed: int, safety: str, *, goal: float = 24.0, **robot: Any) -> vs.Mission:
     """Discs that turn at will every second or two, none faster than ``TOP_MPS``."""
     random = np.random.default_rng(seed)
     unseen = []
@@ -39,7 +39,7 @@ def among(seed: int, safety: str, **robot: Any) -> vs.Mission:
                 "moving": {"max_speed_mps": TOP_MPS, "safety": safety},
                 **robot,
             },
-            "route": {"start": [0, 0], "goal": [24, 0]},
+            "route": {"start": [0, 0], "goal": [goal, 0]},
         }
     )
 
@@ -54,7 +54,8 @@ def test_nothing_touches_a_robot_that_moves(seed: int) -> None:
 
 def test_nothing_touches_one_with_a_limit_of_the_jerk_and_a_delay() -> None:
     drive = {"differential": {"track_m": 0.4}, "delay_s": 0.3}
-    run = vs.simulate(among(1, "passive", max_jerk_mps3=2.0, drive=drive), step=0.1)
+    asked = among(1, "passive", goal=14.0, max_jerk_mps3=2.0, drive=drive)
+    run = vs.simulate(asked, step=0.1)
     assert run.encounters is not None
     assert [contact for contact in run.encounters.contacts if contact.robot_speed > 0.01] == []
 

@@ -43,6 +43,8 @@ PROOF_S = 0.2
 MAX_DELAY_S = 300.0
 """Later departures are tried up to this [s]."""
 MAX_DEPARTURES = 8
+ELSEWHERE = "via points that lead away from where that moves, or another depart_s"
+"""What may help where it isn't known what does."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +77,7 @@ class Unserved:
         if is_cut or reached.can_arrive or (is_alive and self._still() == math.inf):
             return GaveUp(
                 ("waiting, slowing down and passing before on a lattice of times and speeds",),
-                remedy or ("a larger budget" if self.budget.is_spent else "another path"),
+                remedy or ELSEWHERE,
                 reason="no law was found on this path among what moves",
             )
         first, last = (max(place, 0) for place in reached.ends)
