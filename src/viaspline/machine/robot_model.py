@@ -57,7 +57,7 @@ def drive_model_of(robot: RobotSpec, period: float = PERIOD_S) -> DriveModel:
         0.1
     """
     drive, place = robot.drive, robot.localization
-    actuators = Actuators() if drive is None else drive.kind.actuators()
+    actuators = _actuators_of(robot)
     lag = 0.0 if drive is None else drive.lag_s
     slow = 1.0 / (LAGS_PER_LOOP * (lag + 0.5 * period))
     noise = 0.0 if place is None else place.position_noise_m
@@ -107,9 +107,13 @@ def steered_distance(actuators: Actuators, speed: float) -> float:
 
 def steers_slowly(robot: RobotSpec) -> bool:
     """Whether it is its steering that tells how soon a robot at full speed is back on its path."""
-    actuators = Actuators() if robot.drive is None else robot.drive.kind.actuators()
-    at_speed = CONVERGENCE_TIME_S * robot.max_speed_mps
-    return steered_distance(actuators, robot.max_speed_mps) > max(CONVERGENCE_DISTANCE_M, at_speed)
+    steered = steered_distance(_actuators_of(robot), robot.max_speed_mps)
+    return steered > max(CONVERGENCE_DISTANCE_M, CONVERGENCE_TIME_S * robot.max_speed_mps)
+
+
+def _actuators_of(robot: RobotSpec) -> Actuators:
+    """Those of its drive; without one they have no limits."""
+    return Actuators() if robot.drive is None else robot.drive.kind.actuators()
 
 
 def _spot_rate(actuators: Actuators) -> float:
