@@ -45,6 +45,16 @@ def test_a_narrow_or_a_coarse_lidar_takes_longer_but_gets_there(
     assert run.certificate.clearance > 0.0
 
 
+@pytest.mark.parametrize("limit", [{}, {"max_yaw_accel_degps2": 180}, {"max_jerk_mps3": 2}])
+def test_a_small_robot_that_sees_too_little_takes_its_smallest_step(
+    mission_of: Make, limit: dict[str, float]
+) -> None:
+    sensor = {"lidar": {"range_m": 2.5, "fov_deg": 120.0, "beams": 361}}
+    robot = {"radius_m": 0.0, "clearance_m": 0.0, "tracking_error_m": 0.02, "sensor": sensor}
+    run = simulate(mission_of([0, 0], [1, 0], **{**robot, **limit}))
+    assert run.reached, run.reason
+
+
 def test_without_a_scan_it_stays_where_it_is(mission_of: Make) -> None:
     nav = Navigator(mission_of([0, 0], [12, 0], **ROBOT))
     for time in (0.0, 1.0, 2.0):

@@ -21,8 +21,9 @@ PART_RATIO, PART_S = 2.0, 3.0
 """Where laws are dear a new one reaches so many stopping distances ahead, and what the robot
 drives in so long a time [s],"""
 
-LEAST_PART_M = 0.01
-"""but no less than this: a robot that stands stays there, and one that stops there does [m];"""
+LEAST_PART_M = 0.004
+"""but no less than this, which is less than the smallest cell that a robot probes: one that stands
+stays there, and one that stops there does [m];"""
 
 RENEWAL_S = 0.5
 """and is found anew so much before it has to brake for its end [s]."""
