@@ -18,9 +18,10 @@ from viaspline.curve.path import GUIDE, SEAM, Path, PathVia
 from viaspline.errors import GaveUpError
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.world.clusters import group_labels
+from viaspline.planning.checking.barrier_crossings import crossings
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import WholeLeg
-from viaspline.planning.routing.asked_sides import AskedSides, sided
+from viaspline.planning.routing.asked_sides import AskedSides, forced_barriers, sided
 from viaspline.world.world import World
 
 SAME_U = 1e-9  # a part of a path that is shorter than this in its parameter is none
@@ -70,6 +71,8 @@ def spans_on_wrong_side(
     groups = _groups_of(world, requirements)
     for leg, start, goal in zip(whole_legs(path, u, ends), starts, ends, strict=False):
         ahead = path.section(start, goal.u).spans
+        if not crossings(ahead, forced_barriers(leg, indices, world)).any():
+            continue  # whether they bind takes longer to find out
         sides = AskedSides.of(
             WholeLeg(leg.start, leg.goal), indices, world, requirements.required, groups
         )

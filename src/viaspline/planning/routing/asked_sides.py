@@ -62,10 +62,7 @@ class AskedSides:
         """
         if not indices.size:
             return cls(indices, np.empty((0, 4)), np.zeros(0, np.bool_))
-        barriers = np.vstack([
-            barriers_of(world, i, leg.start, leg.goal).forcing(world.obstacles[i].forced_side)
-            for i in indices.tolist()
-        ])  # fmt: skip
+        barriers = forced_barriers(leg, indices, world)
         in_the_way = on_the_line(world, leg.start, leg.goal, NEAR_RATIO * required)
         touched = on_the_line(world, leg.start, leg.goal, required)
         if touched.any() and not world.are_maps.any():
@@ -133,6 +130,23 @@ class AskedSides:
         if not self.indices.size:
             return self.indices
         return self.indices[self.binding & crossings(spans, self.barriers).any(axis=0)]
+
+
+def forced_barriers(leg: WholeLeg, indices: Ints, world: World) -> Floats:
+    """What closes the forbidden sides of obstacles on a leg, whether they bind it or not [m].
+
+    Args:
+        leg: From where to where.
+        indices: Of obstacles with a side of their own, (k,).
+        world: The known world.
+
+    Returns:
+        Shape (k, 4).
+    """
+    return np.vstack([
+        barriers_of(world, i, leg.start, leg.goal).forcing(world.obstacles[i].forced_side)
+        for i in indices.tolist()
+    ])  # fmt: skip
 
 
 def sided(world: World) -> Ints:
