@@ -43,16 +43,17 @@ def run(*command: str | Path) -> None:
         sys.exit(code)
 
 
-def run_beside(beside: Path, *command: str | Path) -> None:
-    """Run a command while another, which only one core can serve, runs to its end beside it.
+def run_beside(beside: Path, *commands: tuple[str | Path, ...]) -> None:
+    """Run commands while another, which only one core can serve, runs to its end beside them.
 
-    What the other says comes after; it is stopped where the command fails.
+    What the other says comes after; it is stopped where a command fails.
     """
     other = subprocess.Popen(
         [str(beside)], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     )
     try:
-        run(*command)
+        for command in commands:
+            run(*command)
         said = other.communicate()[0]
     finally:
         other.kill()
@@ -103,6 +104,8 @@ def main() -> None:
     """Set up, then every check in turn, the quick ones first."""
     if sys.version_info < (3, 11):  # noqa: UP036  (this file runs before anything is installed)
         sys.exit(f"viaspline needs Python 3.11 or newer; this is {sys.version.split()[0]}")
+    # Without it every process that a test starts would compile all the sources anew.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     if "--quick" not in sys.argv or not BIN.exists():
         set_up()
     if "--docs" in sys.argv:
@@ -120,8 +123,10 @@ def main() -> None:
         chosen = tests_of(changed())
         run(BIN / "python", "-m", "pytest", "-x", "-m", "not slow", *chosen)
     else:
-        tests = (BIN / "python", "-m", "pytest", "-n", "3", "--dist", "worksteal")
-        run_beside(BIN / "mypy", *tests)
+        # Collected once, the tests' bytecode is there for the three processes that run them.
+        pytest = (BIN / "python", "-m", "pytest")
+        collect, tests = ("--collect-only", "-qq"), ("-n", "3", "--dist", "worksteal")
+        run_beside(BIN / "mypy", (*pytest, *collect), (*pytest, *tests))
 
 
 if __name__ == "__main__":

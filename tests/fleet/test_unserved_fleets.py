@@ -71,10 +71,10 @@ def test_of_what_is_told_while_a_route_is_dragged_nothing_was_tried() -> None:
 
 def side_step(depth: float) -> dict[str, Any]:
     """An aisle with a pocket of some depth in its middle, a metre and a half wide."""
-    low, high = 14.0, 15.5
-    walls = [(0.0, low, 1.6), (high, 30.0, 1.6), (low, high, 1.6 + depth)]
+    low, high = 7.0, 8.5
+    walls = [(0.0, low, 1.6), (high, 15.5, 1.6), (low, high, 1.6 + depth)]
     known = [{"polygon": [[a, h], [b, h], [b, 9], [a, 9]]} for a, b, h in walls]
-    return {"bounds": [0, 0, 30, 8], "known": known}
+    return {"bounds": [0, 0, 15.5, 8], "known": known}
 
 
 def could_pass(depth: float) -> bool:
@@ -92,8 +92,8 @@ def could_pass(depth: float) -> bool:
     ],
 )
 def test_refused_are_only_those_that_have_no_way(depth: float, has_third: bool) -> None:
-    robots = [robot("a", [2, 0.8], [28, 0.8]), robot("b", [28, 0.8], [2, 0.8])]
-    robots += [robot("c", [5, 0.8], [9, 0.8], rest="leave")] if has_third else []
+    robots = [robot("a", [1, 0.8], [14, 0.8]), robot("b", [14, 0.8], [1, 0.8])]
+    robots += [robot("c", [3, 0.8], [5, 0.8], rest="leave")] if has_third else []
     plan = planned(*robots, world=side_step(depth))
     refused = {one.name for one in plan.not_served if one.outcome == "refused"}
     assert not (refused and could_pass(depth))

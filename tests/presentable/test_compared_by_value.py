@@ -1,9 +1,7 @@
 import copy
 import math
 import pickle
-import tempfile
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -49,12 +47,14 @@ CART = vs.Obstacle(
 AMONG = vs.Mission.model_validate(
     {**MISSION.model_dump(by_alias=True, exclude_defaults=True), "world": {"known": [CART]}}
 )
-PLAN, FLOWN = vs.plan(MISSION), vs.plan(FLIGHT)
-FLEET_PLAN = vs.plan_fleet(PAIR)
-RUN = vs.simulate(MISSION, plan=PLAN)
 CELLS = np.array([[True, False], [False, False]])
-DRIVEN = vs.simulate(
-    MISSION.model_copy(
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """A value of every class that is exported, by the name of its class or of its kind."""
+    plan, flown, fleet_plan = vs.plan(MISSION), vs.plan(FLIGHT), vs.plan_fleet(PAIR)
+    driven = MISSION.model_copy(
         update={
             "robot": MISSION.robot.model_validate(
                 {"radius_m": 0.3, "drive": {"differential": {"track_m": 0.4}}}
@@ -62,48 +62,48 @@ DRIVEN = vs.simulate(
             "world": MISSION.world.model_copy(update={"unseen": ()}),
         }
     )
-)
-with tempfile.TemporaryDirectory() as folder:
-    EXPORTED = vs.export(PLAN, Path(folder) / "patrol.csv")
-MADE: dict[str, Any] = {
-    "CardinalSpline": vs.CardinalSpline([(0, 0), (3, 1), (5, 0)], tension=0.2),
-    "Certificate": PLAN.certificate,
-    "Command": vs.Navigator(MISSION).step(vs.RobotState((10.0, 50.0), 0.0, 0.0), [], 0.0)[0],
-    "Delays": vs.Delays(slowed=0.3),
-    "Fleet": PAIR,
-    "FleetCommand": vs.FleetNavigator(FLEET_PLAN).step([], 0.0)[0]["a"],
-    "ExportOptions": vs.ExportOptions(origin=(47.4, 8.5)),
-    "Exported": EXPORTED,
-    "FleetMember": PAIR.members[0],
-    "FleetPlan": FLEET_PLAN,
-    "FleetRun": vs.simulate_fleet(PAIR, plan=FLEET_PLAN),
-    "Grid": vs.Grid(CELLS, 0.5, unknown=CELLS),
-    "Limits": vs.Limits(max_speed=1, max_accel=1),
-    "Mission": MISSION,
-    "MovingCertificate": vs.plan(AMONG).moving_certificate,
-    "MovingObstacles": vs.MovingObstacles([CART]),
-    "MovingSighting": vs.MovingSighting(0, CART, (0, 0, 0), (0, 0)),
-    "Obstacle": MISSION.world.known[1],
-    "Path": PLAN.path,
-    "PiecewiseCubic": vs.PiecewiseCubic([[[0, 0], [1, 0], [2, 0], [3, 0]]]),
-    "Plan": PLAN,
-    "Plan among what moves": vs.plan(AMONG),
-    "ProgressReport": vs.ProgressReport("a", 0.0, 0.0),
-    "RobotState": vs.RobotState((0.0, 0.0), 0.0, 0.0),
-    "Run": RUN,
-    "Run of a machine": DRIVEN,
-    "Scan": vs.Scan((1.0, 2.0), 0.0, -1.5, 1.5, 9.0, [math.inf, 3.0, math.nan]),  # type: ignore[arg-type]
-    "SpatialPlan": FLOWN,
-    "SpatialRun": vs.fly(FLOWN),
-    "SpatialWorld": FLOWN.world,
-    "SpeedZone": vs.SpeedZone(polygon=[(0, 0), (1, 0), (1, 1)], max_speed_mps=1),
-    "Station": vs.Station(3.0, 4.0, "pump"),
-    "TensionAdvice": vs.advise_tension(MISSION, [0.0, 0.5]),
-    "Terrain": vs.Terrain(np.array([[0.0, 1.0], [2.0, math.nan]]), 1.0),
-    "Trajectory": PLAN.trajectory,
-    "Voxels": vs.Voxels(CELLS[None], 1.0),
-    "World": PLAN.world,
-}
+    among = vs.plan(AMONG)
+    return {
+        "CardinalSpline": vs.CardinalSpline([(0, 0), (3, 1), (5, 0)], tension=0.2),
+        "Certificate": plan.certificate,
+        "Command": vs.Navigator(MISSION).step(vs.RobotState((10.0, 50.0), 0.0, 0.0), [], 0.0)[0],
+        "Delays": vs.Delays(slowed=0.3),
+        "Fleet": PAIR,
+        "FleetCommand": vs.FleetNavigator(fleet_plan).step([], 0.0)[0]["a"],
+        "ExportOptions": vs.ExportOptions(origin=(47.4, 8.5)),
+        "Exported": vs.export(plan, tmp_path_factory.mktemp("exported") / "patrol.csv"),
+        "FleetMember": PAIR.members[0],
+        "FleetPlan": fleet_plan,
+        "FleetRun": vs.simulate_fleet(PAIR, plan=fleet_plan),
+        "Grid": vs.Grid(CELLS, 0.5, unknown=CELLS),
+        "Limits": vs.Limits(max_speed=1, max_accel=1),
+        "Mission": MISSION,
+        "MovingCertificate": among.moving_certificate,
+        "MovingObstacles": vs.MovingObstacles([CART]),
+        "MovingSighting": vs.MovingSighting(0, CART, (0, 0, 0), (0, 0)),
+        "Obstacle": MISSION.world.known[1],
+        "Path": plan.path,
+        "PiecewiseCubic": vs.PiecewiseCubic([[[0, 0], [1, 0], [2, 0], [3, 0]]]),
+        "Plan": plan,
+        "Plan among what moves": among,
+        "ProgressReport": vs.ProgressReport("a", 0.0, 0.0),
+        "RobotState": vs.RobotState((0.0, 0.0), 0.0, 0.0),
+        "Run": vs.simulate(MISSION, plan=plan),
+        "Run of a machine": vs.simulate(driven),
+        "Scan": vs.Scan((1.0, 2.0), 0.0, -1.5, 1.5, 9.0, [math.inf, 3.0, math.nan]),  # type: ignore[arg-type]
+        "SpatialPlan": flown,
+        "SpatialRun": vs.fly(flown),
+        "SpatialWorld": flown.world,
+        "SpeedZone": vs.SpeedZone(polygon=[(0, 0), (1, 0), (1, 1)], max_speed_mps=1),
+        "Station": vs.Station(3.0, 4.0, "pump"),
+        "TensionAdvice": vs.advise_tension(MISSION, [0.0, 0.5]),
+        "Terrain": vs.Terrain(np.array([[0.0, 1.0], [2.0, math.nan]]), 1.0),
+        "Trajectory": plan.trajectory,
+        "Voxels": vs.Voxels(CELLS[None], 1.0),
+        "World": plan.world,
+    }
+
+
 VERBS = {name for name in vs.__all__ if name[0].islower()}
 ERRORS = {name for name in vs.__all__ if name.endswith(("Error", "Warning"))}
 WITH_A_STATE = {"FleetNavigator", "Logbook", "Navigator"}
@@ -114,24 +114,23 @@ COPIES: dict[str, Callable[[Any], Any]] = {
 }
 
 
-def test_every_exported_class_of_values_is_tried() -> None:
+def test_every_exported_class_of_values_is_tried(made: dict[str, Any]) -> None:
     classes = set(vs.__all__) - VERBS - ERRORS - {"__version__"} - WITH_A_STATE
-    assert classes <= set(MADE)
+    assert classes <= set(made)
     for name in classes:
-        assert type(MADE[name]).__name__ == name
+        assert type(made[name]).__name__ == name
 
 
 @pytest.mark.parametrize("kind", COPIES)
-@pytest.mark.parametrize("name", MADE)
-def test_a_copy_equals_its_original_and_has_its_hash(name: str, kind: str) -> None:
-    value = MADE[name]
-    again = COPIES[kind](value)
-    assert again == value
-    assert value == again
-    assert hash(again) == hash(value)
-    assert len({value, again}) == 1
-    assert value != object()
-    assert value != "a text"
+def test_a_copy_equals_its_original_and_has_its_hash(kind: str, made: dict[str, Any]) -> None:
+    for name, value in made.items():
+        again = COPIES[kind](value)
+        assert again == value, name
+        assert value == again, name
+        assert hash(again) == hash(value), name
+        assert len({value, again}) == 1, name
+        assert value != object(), name
+        assert value != "a text", name
 
 
 @pytest.mark.parametrize(
@@ -153,32 +152,34 @@ def test_a_copy_of_an_error_says_the_same_with_the_same_data(error: vs.Viaspline
         assert vars(again) == vars(error)
 
 
-@pytest.mark.parametrize("name", MADE)
-def test_a_value_is_told_in_ten_lines_at_most(name: str) -> None:
-    told = repr(MADE[name])
-    assert 0 < len(told) <= 1000
-    assert told.count("\n") < 10
+def test_a_value_is_told_in_ten_lines_at_most(made: dict[str, Any]) -> None:
+    for name, value in made.items():
+        told = repr(value)
+        assert 0 < len(told) <= 1000, name
+        assert told.count("\n") < 10, name
 
 
-def test_two_plans_of_one_mission_are_equal_and_of_another_they_are_not() -> None:
-    again = vs.plan(MISSION)
-    assert again == PLAN
-    assert hash(again) == hash(PLAN)
+def test_two_plans_of_one_mission_are_equal_and_of_another_they_are_not(
+    made: dict[str, Any],
+) -> None:
+    plan, again = made["Plan"], vs.plan(MISSION)
+    assert again == plan
+    assert hash(again) == hash(plan)
     tank = vs.Obstacle(name="tank", circle={"center": (50, 52), "radius": 10.001})
     world = MISSION.world.model_copy(update={"known": (tank,)})
     other = vs.plan(MISSION.model_copy(update={"world": world}))
-    assert other != PLAN
-    assert other.path != PLAN.path
-    assert other.world != PLAN.world
-    assert other.certificate != PLAN.certificate
-    assert len({PLAN, again, other}) == 2
+    assert other != plan
+    assert other.path != plan.path
+    assert other.world != plan.world
+    assert other.certificate != plan.certificate
+    assert len({plan, again, other}) == 2
 
 
-def test_a_run_is_the_same_whatever_the_clock_says() -> None:
-    again = vs.simulate(MISSION, plan=PLAN)
-    assert again == RUN
-    assert again.compute_times != RUN.compute_times or not RUN.compute_times
-    assert vs.simulate(MISSION, plan=PLAN, step=0.1) != RUN
+def test_a_run_is_the_same_whatever_the_clock_says(made: dict[str, Any]) -> None:
+    run, again = made["Run"], vs.simulate(MISSION, plan=made["Plan"])
+    assert again == run
+    assert again.compute_times != run.compute_times or not run.compute_times
+    assert vs.simulate(MISSION, plan=made["Plan"], step=0.1) != run
 
 
 def test_worlds_are_told_apart_by_what_is_in_them() -> None:

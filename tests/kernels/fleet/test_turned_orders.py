@@ -66,6 +66,7 @@ def test_laws_get_no_later_and_stay_apart(seed: int) -> None:
     assert nearest_two(courses, better) >= 2.0 * REACH
 
 
+@pytest.mark.long_without_jit
 def test_one_that_waits_for_many_is_let_pass_by_them() -> None:
     streets: list[Line] = [((6.0 * k, 4.0 - 10.0 * k), (6.0 * k, 60.0)) for k in range(1, 7)]
     across: list[Line] = [((0.0, 0.0), (50.0, 0.0))]

@@ -75,6 +75,7 @@ def test_where_a_straight_span_turns_back_is_a_place_to_rest() -> None:
     assert np.count_nonzero(np.diff(places) > 2) == 1, "two turns, each at a very short arc"
 
 
+@pytest.mark.long_without_jit
 def test_many_arcs_outgrow_the_first_room_that_is_made_for_them() -> None:
     rng = np.random.default_rng(1)
     points = np.cumsum(rng.normal(0, 5, (4, 2)), axis=0)

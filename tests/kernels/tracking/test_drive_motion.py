@@ -64,6 +64,7 @@ def test_a_standing_robot_is_not_shaken_by_noise() -> None:
     assert np.all(rows[:, 1:4] == 0.0)
 
 
+@pytest.mark.long_without_jit
 def test_the_noise_of_a_drive_has_its_standard_deviation() -> None:
     rng = np.random.default_rng(1)
     drive = model(speed_noise=0.1, yaw_noise=0.2)

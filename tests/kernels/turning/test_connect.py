@@ -59,6 +59,7 @@ def test_it_hits_the_pose_without_jumps_of_curvature(x, y, start, goal, s1, s2):
     assert length >= math.hypot(x, y) - 1e-9
 
 
+@pytest.mark.long_without_jit
 @settings(max_examples=100, deadline=None)
 @given(angles, st.floats(24, 60), angles, angles)
 def test_far_apart_the_best_is_no_longer_than_the_best_swing_of_two_bends(way, gap, start, goal):

@@ -211,6 +211,7 @@ def test_bends_that_are_left_are_laid_as_they_are_without_those_that_go(seed, cl
         assert ramps == pytest.approx(its_ramps, rel=1e-12)
 
 
+@pytest.mark.long_without_jit
 def test_rows_without_bends_that_go_are_among_the_random_ones_and_others():
     sizes = [(random_row(seed, False), seed) for seed in range(30)]
     gone = [len(rows) - len(needed_turns(rows, False, 1.0)[0]) for rows, _ in sizes]

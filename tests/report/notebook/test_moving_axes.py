@@ -1,3 +1,5 @@
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -29,10 +31,8 @@ def driven(sensor: Any, *more: Any) -> vs.Run:
 
 
 TOWER = {"circle": {"center": [25, 0.5], "radius": 4}, "height_m": [0, 30]}
-FLIGHT = vs.fly(
-    vs.Mission.model_validate(
-        {"world": {"known": [TOWER]}, "route": {"start": [0, 0, 10], "goal": [50, 0, 15]}}
-    )
+FLIGHT = vs.Mission.model_validate(
+    {"world": {"known": [TOWER]}, "route": {"start": [0, 0, 10], "goal": [50, 0, 15]}}
 )
 FLEET = vs.Fleet.model_validate(
     {
@@ -42,7 +42,6 @@ FLEET = vs.Fleet.model_validate(
         ]
     }
 )
-FLEET_PLAN = vs.plan_fleet(FLEET)
 CROWD = vs.Fleet.model_validate(
     {
         "fleet": [
@@ -50,15 +49,21 @@ CROWD = vs.Fleet.model_validate(
         ]
     }
 )
-RUNS: dict[str, Any] = {
-    "run": driven({"range_m": 20}),
-    "run with a lidar": driven({"lidar": {"range_m": 20, "beams": 90}}),
-    "run among what moves": driven({"range_m": 20}, CART),
-    "flight": FLIGHT,
-    "fleet plan": FLEET_PLAN,
-    "fleet run": vs.simulate_fleet(FLEET, plan=FLEET_PLAN),
-    "crowd": vs.simulate_fleet(CROWD),
+RUNS: dict[str, Callable[[], Any]] = {
+    "run": lambda: driven({"range_m": 20}),
+    "run with a lidar": lambda: driven({"lidar": {"range_m": 20, "beams": 90}}),
+    "run among what moves": lambda: driven({"range_m": 20}, CART),
+    "flight": lambda: vs.fly(FLIGHT),
+    "fleet plan": lambda: vs.plan_fleet(FLEET),
+    "fleet run": lambda: vs.simulate_fleet(FLEET),
+    "crowd": lambda: vs.simulate_fleet(CROWD),
 }
+
+
+@cache
+def made(name: str) -> Any:
+    """One of the runs, which is made when it is first asked for."""
+    return RUNS[name]()
 
 
 def lasts(run: Any) -> float:
@@ -69,7 +74,7 @@ def lasts(run: Any) -> float:
 
 @pytest.mark.parametrize("name", RUNS)
 def test_a_run_is_filmed_on_plain_axes(name: str, tmp_path: Path) -> None:
-    run = RUNS[name]
+    run = made(name)
     axes = Figure(figsize=(4, 3)).add_subplot()
     film = run.animate(axes, pace=lasts(run), fps=5)
     file = tmp_path / "run.gif"
@@ -89,13 +94,13 @@ def test_a_run_is_filmed_on_plain_axes(name: str, tmp_path: Path) -> None:
 )
 def test_a_film_that_nobody_could_watch_is_refused(numbers: tuple[float, float]) -> None:
     axes = Figure().add_subplot()
-    for run in RUNS.values():
+    for run in map(made, RUNS):
         with pytest.raises(vs.GeometryError):
             run.animate(axes, pace=numbers[0], fps=numbers[1])
 
 
 def test_what_is_no_axes_is_refused() -> None:
-    for run in RUNS.values():
+    for run in map(made, RUNS):
         with pytest.raises(vs.GeometryError, match="not Axes"):
             run.animate(5)
 

@@ -128,9 +128,13 @@ def test_what_is_found_on_one_lap_is_gone_round_on_all_of_them(
         if replan.mode != "from_rest":
             assert replan.heading_jump < 1e-6
             assert replan.curvature_jump < 1e-6
-    again = simulate(mission)
-    assert run.path.spans.tobytes() == again.path.spans.tobytes()
-    assert run.events == again.events
+
+
+def test_the_same_find_on_a_round_gives_the_same_drive() -> None:
+    one, again = (simulate(patrol(4, [disc(*BESIDE, 1.0, "rock")])) for _ in range(2))
+    assert one.replans
+    assert one.path.spans.tobytes() == again.path.spans.tobytes()
+    assert one.events == again.events
 
 
 def test_a_find_is_gone_round_once_and_then_is_part_of_every_lap() -> None:
@@ -192,7 +196,7 @@ def test_what_is_kept_grows_with_what_is_known_and_not_with_the_drive() -> None:
     mission = patrol(60, radius_m=0.05, clearance_m=0.05, sensor={"range_m": 8.0})
     nav, replans, tick, kept = Navigator(mission), 0, 0, []
     tracemalloc.start()
-    for found in range(40):
+    for found in range(24):
         at = nav.distance + 10.0
         place = nav.path.at_distance(at if at < nav.path.length else at - nav.path.length)
         if np.hypot(*(np.array(SQUARE) - place).T).min() > 1.0:
@@ -203,13 +207,13 @@ def test_what_is_kept_grows_with_what_is_known_and_not_with_the_drive() -> None:
                 replans, tick = replans + len(nav.replans), tick + 1
         tick += 1
         _, nav = nav.step(nav.reference(float(tick)), [], float(tick))
-        if found in (19, 39):
+        if found in (11, 23):
             gc.collect()  # what is left over of searches that were stopped isn't kept
             kept.append(tracemalloc.get_traced_memory()[0])
     tracemalloc.stop()
     assert nav.reason is None
-    assert replans > 30
-    growth = (kept[1] - kept[0]) / 20
+    assert replans > 18
+    growth = (kept[1] - kept[0]) / 12
     assert growth < 24_000  # bytes for each thing: itself, its place in the world, its detour
 
 
@@ -244,36 +248,38 @@ def test_a_search_that_has_no_time_on_a_round_goes_on_at_rest_and_serves_every_l
 def test_a_search_that_has_no_time_on_a_round_keeps_the_side_that_is_asked_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    for side, sense in (("left", 1.0), ("right", -1.0)):
-        for y in (-0.5 * sense, sense * 1.8):  # the last is only passed on the wrong side
-            rock = {**disc(30, y, 1.0, "rock"), "pass_on": side}
-            straight = patrol(4, [rock]).model_copy(update={"spline": SplineSpec(tension=0.95)})
-            for limit in (1e-3, 0.1):
-                monkeypatch.setattr(deadline, "STEP_WORK_S", limit)
-                monkeypatch.setattr(deadline, "STANDING_WORK_S", limit)
-                run = simulate(straight)
-                assert run.reached, run.reason
-                assert run.replans
-                line = run.path.sample(0.05)[2]
-                beside = line[(np.abs(line[:, 0] - 30.0) < 0.1) & (line[:, 1] < 20.0)]
-                assert len(beside)
-                assert (sense * (beside[:, 1] - y) > 1.4).all()
+    tried = [
+        ("left", 1.0, -0.5, 1e-3), ("right", -1.0, 0.5, 0.1),
+        ("left", 1.0, 1.8, 0.1), ("right", -1.0, -1.8, 1e-3),  # only passed on the wrong side
+    ]  # fmt: skip
+    for side, sense, y, limit in tried:
+        rock = {**disc(30, y, 1.0, "rock"), "pass_on": side}
+        straight = patrol(4, [rock]).model_copy(update={"spline": SplineSpec(tension=0.95)})
+        monkeypatch.setattr(deadline, "STEP_WORK_S", limit)
+        monkeypatch.setattr(deadline, "STANDING_WORK_S", limit)
+        run = simulate(straight)
+        assert run.reached, run.reason
+        assert run.replans
+        line = run.path.sample(0.05)[2]
+        beside = line[(np.abs(line[:, 0] - 30.0) < 0.1) & (line[:, 1] < 20.0)]
+        assert len(beside)
+        assert (sense * (beside[:, 1] - y) > 1.4).all()
 
 
 def test_on_a_round_the_jerk_keeps_its_limit_from_part_to_part() -> None:
     jerk = 1.5
     nav, states = Navigator(patrol(3, max_jerk_mps3=jerk)), []
     while not nav.finished:
-        time = 0.05 * len(states)
+        time = 0.1 * len(states)
         states.append([float(x) for x in nav.trajectory.state_at(time)[1:]])
         _, nav = nav.step(nav.reference(time), [], time)
     assert nav.reached
-    assert np.abs(np.diff([accel for _, accel in states])).max() <= 1.001 * jerk * 0.05
+    assert np.abs(np.diff([accel for _, accel in states])).max() <= 1.001 * jerk * 0.1
     assert nav.driven + nav.path.length == pytest.approx(nav.plan.path.length)
 
 
 SMALL = {"start": [0, 0], "via": [[7, 0], [7, 5], [0, 5]], "closed": True}
-LIDAR = {"lidar": {"range_m": 2.5, "fov_deg": 360, "beams": 180}}
+LIDAR = {"lidar": {"range_m": 2.5, "fov_deg": 360, "beams": 90}}
 CART = {
     "drive": {"differential": {"track_m": 0.4}, "delay_s": 0.1},
     "tracking_error_m": 0.1,
@@ -295,7 +301,7 @@ def test_with_a_lidar_the_path_ahead_is_a_round_too(drive: dict[str, Any]) -> No
 
     nav = Navigator(mission, warm=False)
     assert nav.path.length < 0.5 * nav.plan.path.length
-    run = simulate(mission, plan=nav.plan, watch=note)
+    run = simulate(mission, plan=nav.plan, watch=note, step=0.1)
     assert run.reached, run.reason
     assert statuses(run) == ["served"] * 17
     assert run.certificate.clearance >= 0.05  # of the driven body, by what is kept to track

@@ -129,7 +129,7 @@ def test_a_robot_with_a_lidar_keeps_more_too(
 ) -> None:
     from viaspline.robot.perception.lidar import LidarSensor
 
-    lidar = {"lidar": {"range_m": 8, "fov_deg": 270, "beams": 181}}
+    lidar = {"lidar": {"range_m": 8, "fov_deg": 270, "beams": 91}}
     nav = Navigator(slalom_of(drive=GUESSED, sensor=lidar))
     sensor = LidarSensor(discs, nav.mission.robot.sensor.lidar)  # type: ignore[union-attr, arg-type]
     done = loop(

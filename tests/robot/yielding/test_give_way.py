@@ -123,7 +123,7 @@ def test_a_robot_goes_on_when_all_that_it_waited_for_is_gone_from_sight() -> Non
 def test_a_wall_of_them_touches_no_robot_under_way_that_is_to_be_at_rest_in_time() -> None:
     boxed = [cart(f"d{i}", (12.0, y), (-1.3, 0.0)) for i, y in enumerate(np.arange(-6.0, 7.0))]
     safe = {"max_speed_mps": 1.5, "safety": "passive"}
-    run = vs.simulate(crossing(*boxed, moving=safe), step=0.1)
+    run = vs.simulate(crossing(*boxed, moving=safe), step=0.2)
     assert run.encounters is not None
     assert all(contact.robot_speed == 0.0 for contact in run.encounters.contacts)
 

@@ -54,8 +54,8 @@ def test_nothing_touches_a_robot_that_moves(seed: int) -> None:
 
 def test_nothing_touches_one_with_a_limit_of_the_jerk_and_a_delay() -> None:
     drive = {"differential": {"track_m": 0.4}, "delay_s": 0.3}
-    asked = among(1, "passive", goal=14.0, max_jerk_mps3=2.0, drive=drive)
-    run = vs.simulate(asked, step=0.1)
+    asked = among(1, "passive", goal=9.0, max_jerk_mps3=2.0, drive=drive)
+    run = vs.simulate(asked, step=0.2)
     assert run.encounters is not None
     assert [contact for contact in run.encounters.contacts if contact.robot_speed > 0.01] == []
 
@@ -100,7 +100,9 @@ def test_a_stop_that_was_proven_is_driven_on_its_path_and_what_was_seen_is_not_f
 
 
 def test_who_does_without_drives_as_if_nothing_came_from_out_of_sight() -> None:
-    calm, bold = (vs.simulate(among(3, safety), step=0.1) for safety in ("passive", "none"))
+    calm, bold = (
+        vs.simulate(among(3, safety, goal=16.0), step=0.2) for safety in ("passive", "none")
+    )
     assert bold.duration <= calm.duration
 
 

@@ -101,10 +101,10 @@ def test_a_way_is_hardly_longer_than_the_shortest_among_neighbours(
 
 
 def test_a_search_ends_when_its_nodes_are_spent() -> None:
-    blocked = np.zeros((20, 20, 20), bool)
-    blocked[10, :, :19] = True
+    blocked = np.zeros((12, 12, 12), bool)
+    blocked[6, :, :11] = True
     block, lattice = block_of(blocked)
-    ends = np.array([1.5, 10.5, 1.5]), np.array([18.5, 10.5, 1.5])
+    ends = np.array([1.5, 6.5, 1.5]), np.array([10.5, 6.5, 1.5])
     asked = block, NO_GATES, LENGTH, lattice, *ends, RADIUS, 1.1
     way, expanded = lattice_way(*asked, 10)
     assert (len(way), expanded) == (0, 10)

@@ -100,6 +100,7 @@ def test_cuts_that_gain_little_are_left_out() -> None:
     assert counts[0] <= 4
 
 
+@pytest.mark.long_without_jit
 def test_a_fast_way_climbs_no_more_than_time_allows() -> None:
     """Climbing is slow here: the way round is longer than the way over, and faster."""
     blocked = np.zeros((31, 31, 20), bool)
