@@ -93,7 +93,7 @@ def missions(draw: st.DrawFn) -> vs.Mission:
     })  # fmt: skip
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck))
 @example(mission(0.1))
 @example(mission(None, known=[{"circle": {"center": [38, 16], "radius": 3}}]))
 @example(mission(0.3, robot={"min_turn_radius_m": 8.0}))

@@ -90,7 +90,7 @@ def test_the_path_runs_through_every_via_point_in_order(random_mission: Make, se
 # 2. Proven, not sampled.
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(seeds)
 def test_the_certificate_holds_and_shapely_agrees(
     random_mission: Make, shapely_distance: Oracle, seed: int
@@ -112,7 +112,7 @@ def test_the_certificate_holds_and_shapely_agrees(
 # 3. If there is a way, it is found; if there is none, the reason is given.
 
 
-@settings(max_examples=200)
+@settings(max_examples=80)
 @given(seeds)
 @example(1057)  # a robot without a size took minutes along walls that it touches
 def test_a_dense_world_is_served_or_refused_with_a_reason(random_mission: Make, seed: int) -> None:
@@ -234,7 +234,7 @@ def attempt(
     return found
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(seeds, st.sampled_from(MODES))
 def test_a_new_path_under_way_keeps_what_was_driven_and_is_proven_ahead(
     random_mission: Make, shapely_distance: Oracle, seed: int, mode: str
@@ -278,7 +278,7 @@ def test_a_new_path_under_way_keeps_what_was_driven_and_is_proven_ahead(
         assert abs(math.remainder(turn, math.tau)) < 1e-6
 
 
-@settings(max_examples=80)
+@settings(max_examples=40)
 @given(seeds, st.sampled_from(("reflex", "planned")))
 def test_both_joints_of_a_new_path_continue_place_heading_and_curvature(
     random_mission: Make, seed: int, mode: str

@@ -14,7 +14,7 @@ from viaspline.trajectory.retime import retime
 numbers = st.floats(-30, 30).map(lambda x: round(x, 1))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(st.lists(st.tuples(numbers, numbers), min_size=3, max_size=6, unique=True))
 def test_a_vehicle_that_keeps_what_is_set_is_nowhere_faster_than_the_plan(
     points: list[tuple[float, float]],
@@ -43,7 +43,7 @@ def test_a_vehicle_that_keeps_what_is_set_is_nowhere_faster_than_the_plan(
     assert (driven <= planned * 1.02 + 0.05)[~braking & ~creeping].all()
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(
     st.lists(st.tuples(numbers, numbers), min_size=3, max_size=6, unique=True),
     st.sampled_from([0.2, 0.5, 2.0]),

@@ -76,13 +76,13 @@ def test_all_are_served_and_apart(robots: tuple[dict[str, Any], ...]) -> None:
 
 @pytest.mark.slow
 def test_a_body_too_long_for_the_bay_is_not_served_and_told_so() -> None:
-    walls = [(0.0, 13.0), (14.05, 30.0)]
+    walls = [(0.0, 7.0), (8.05, 16.0)]
     known = [{"polygon": [[a, 1.6], [b, 1.6], [b, 6], [a, 6]]} for a, b in walls]
     long = [[-1.2, -0.3], [1.2, -0.3], [1.2, 0.3], [-1.2, 0.3]]
     plan = planned(
-        robot("a", [2, 0.8], [28, 0.8]), robot("b", [28, 0.8], [2, 0.8]),
+        robot("a", [2, 0.8], [14, 0.8]), robot("b", [14, 0.8], [2, 0.8]),
         robots={"cart": {"footprint": long, "clearance_m": 0.05, "max_speed_mps": 1.5}},
-        world={"bounds": [0, 0, 30, 6], "known": known}, separation_m=0.3,
+        world={"bounds": [0, 0, 16, 6], "known": known}, separation_m=0.3,
     )  # fmt: skip
     assert not plan.plans
     for one in plan.not_served:

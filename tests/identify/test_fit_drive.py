@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.identify.drive_log import DriveLog, DriveLogError
 from viaspline.identify.fit_drive import fit_drive
-from viaspline.identify.identified_drive import drive_block
+from viaspline.identify.identified_drive import IdentifiedDrive, drive_block
 from viaspline.identify.simulated_log import simulated_log
 from viaspline.identify.standard_drive import standard_commands
 from viaspline.machine.allowance import allowance
@@ -75,8 +75,13 @@ def test_the_truth_is_within_the_spread(
         assert abs(found.accel.value / (2.0 * accel) - 1.0) < 0.25
 
 
-def test_without_noise_it_is_found_to_a_hundredth() -> None:
-    found = fit_drive(simulated_log(robot(0.23, 0.31, 0.5), COMMANDS))
+@pytest.fixture(scope="module")
+def found() -> IdentifiedDrive:
+    """Fitted to a drive without any noise."""
+    return fit_drive(simulated_log(robot(0.23, 0.31, 0.5), COMMANDS))
+
+
+def test_without_noise_it_is_found_to_a_hundredth(found: IdentifiedDrive) -> None:
     assert found.delay.value == pytest.approx(0.23, abs=0.01)
     assert found.lag.value == pytest.approx(0.31, abs=0.01)
     assert found.accel is not None
@@ -103,9 +108,8 @@ def test_a_limit_that_another_one_hides_is_found() -> None:
     assert "delay_s: 0  #" in drive_block(found, 0.5) or found.delay.value > 1e-3
 
 
-def test_the_greatest_yaw_rate_that_was_driven_is_a_limit_to_paste() -> None:
+def test_the_greatest_yaw_rate_that_was_driven_is_a_limit_to_paste(found: IdentifiedDrive) -> None:
     """Without one a cart was told to turn at 10 rad/s in a sharp bend, and never got round it."""
-    found = fit_drive(simulated_log(robot(0.1, 0.1, 1.0), COMMANDS))
     assert found.fastest_turn == pytest.approx(0.8, rel=0.02)
     assert f"max_yaw_rate_degps: {math.degrees(found.fastest_turn) / 1.25:.3g}" in drive_block(
         found, 0.5
@@ -168,5 +172,6 @@ def test_what_does_not_follow_from_the_commands_is_refused() -> None:
 
 
 def test_the_same_log_gives_the_same_figures() -> None:
-    log = simulated_log(robot(0.1, 0.2, 1.0, 0.02, 1.0, 0.01), COMMANDS, seed=5)
+    seldom = standard_commands(1.0, 0.8, 0.15)
+    log = simulated_log(robot(0.1, 0.2, 1.0, 0.02, 1.0, 0.01), seldom, seed=5)
     assert fit_drive(log) == fit_drive(log)

@@ -280,7 +280,7 @@ junk = st.recursive(
 )
 
 
-@settings(deadline=None, max_examples=400)
+@settings(deadline=None, max_examples=200)
 @given(data=st.data())
 def test_a_mutation_gives_a_mission_or_a_mission_error(data: st.DataObject, good: Make) -> None:
     mission = good()

@@ -70,18 +70,23 @@ ASKED: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
+class Saved(dict[str, tuple[Path, Any]]):
+    """The plans and where they are saved; each is made when it is first asked for."""
+
+    def __init__(self, root: Path) -> None:
+        super().__init__()
+        self.root = root
+
+    def __missing__(self, name: str) -> tuple[Path, Any]:
+        made = vs.plan(vs.Mission.model_validate(ASKED[name]))
+        made.save(self.root / name)
+        self[name] = (self.root / name, made)
+        return self[name]
+
+
 @pytest.fixture(scope="module")
-def saved(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Path, Any]]:
-    folders = {}
-    for name, asked in ASKED.items():
-        folder = tmp_path_factory.mktemp(name)
-        made = vs.plan(vs.Mission.model_validate(asked))
-        made.save(folder)
-        folders[name] = (folder, made)
-    return folders
-
-
-Saved = dict[str, tuple[Path, Any]]
+def saved(tmp_path_factory: pytest.TempPathFactory) -> Saved:
+    return Saved(tmp_path_factory.mktemp("saved"))
 
 
 @pytest.mark.parametrize("name", ASKED)

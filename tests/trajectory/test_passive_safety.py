@@ -112,7 +112,7 @@ def test_braking_is_proven_where_nothing_can_be_in_the_way(
 
 
 @given(scenes())
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=30)
 def test_a_passive_law_and_braking_from_anywhere_on_it_are_touched_by_nothing(
     scene: tuple[Path, PassivePremises],
 ) -> None:
@@ -135,7 +135,7 @@ def test_a_passive_law_and_braking_from_anywhere_on_it_are_touched_by_nothing(
 
 
 @given(scenes(), st.floats(0.0, 6.0), st.floats(0.0, 2.0))
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None, max_examples=50)
 def test_from_stoppable_speeds_the_robot_stops_in_time(
     scene: tuple[Path, PassivePremises], at: float, late: float
 ) -> None:

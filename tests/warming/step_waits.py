@@ -23,6 +23,7 @@ import viaspline as vs
 from viaspline.kernels.compile_events import compile_progress
 from viaspline.kernels.kernel_cache import KernelCache
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.simulator import STEP_S
 from viaspline.warming.mission_kind import MissionKind, kind_named, kind_of
 from viaspline.warming.small_missions import robot_of
 
@@ -32,6 +33,8 @@ BODIES = ("", "footprint", "turning")
 SAFE = ("passive", "lidar+passive", "lidar+differential+passive", "lidar+footprint+passive")
 LONG_S, REPEATED = 0.04, 2
 """A step that took longer is done so often again [s]."""
+COARSE_S = 0.15
+"""From step to step where only what is compiled, loaded and imported counts [s]."""
 PACKAGES = ("viaspline", "numba", "numpy", "scipy", "shapely", "matplotlib")
 
 
@@ -137,7 +140,7 @@ def told_by_hand(mission: vs.Mission) -> None:
         state = nav.reference(now + 0.05)
 
 
-def waits(name: str, repeated: int = 0) -> dict[str, Any]:
+def waits(name: str, repeated: int = 0, step: float = STEP_S) -> dict[str, Any]:
     """Drive a kind of mission after it was warmed, and say what steps waited for."""
     kind, watched = kind_named(name), Waits(repeated)
     began = time.perf_counter()
@@ -150,7 +153,7 @@ def waits(name: str, repeated: int = 0) -> dict[str, Any]:
     with compile_progress(watched.heard):
         for mission in given:
             with suppress(vs.PlanningError):
-                run = vs.simulate(mission)
+                run = vs.simulate(mission, step=step)
                 outcomes.append([run.reached, len(run.replans)])
         if "untold" in name:
             told_by_hand(given[0])
@@ -182,4 +185,4 @@ if __name__ == "__main__":
     elif sys.argv[1] == "--timed":
         print(json.dumps(waits(sys.argv[2], REPEATED)), flush=True)
     else:
-        print(json.dumps(waits(sys.argv[1])), flush=True)
+        print(json.dumps(waits(sys.argv[1], step=COARSE_S)), flush=True)

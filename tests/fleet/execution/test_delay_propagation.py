@@ -22,7 +22,7 @@ from viaspline.fleet.execution.fleet_orders import orders_of
     seed=st.integers(0, 10_000), count=st.integers(1, 14), late=st.floats(0.0, 100.0),
     departs=st.lists(st.floats(0.0, 30.0), min_size=14, max_size=14),
 )  # fmt: skip
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_it_says_what_the_whole_fleet_reckoned_anew_says(
     seed: int, count: int, late: float, departs: list[float]
 ) -> None:

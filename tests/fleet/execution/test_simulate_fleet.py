@@ -37,7 +37,7 @@ ALL_DELAYS = st.builds(
     vanish=st.booleans(),
     swaps=st.booleans(),
 )
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=15, deadline=None)
 @example(seed=3, delays=Delays(slowed=0.3, halts=1.0, lost=0.3), step=0.1, vanish=False, swaps=True)
 def test_whatever_the_delays_none_touch_and_all_arrive(
     seed: int, delays: Delays, step: float, vanish: bool, swaps: bool
@@ -51,7 +51,7 @@ def test_whatever_the_delays_none_touch_and_all_arrive(
 
 
 @given(seed=st.integers(0, 10_000), delays=ALL_DELAYS)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 def test_robots_keep_their_speeds_and_accelerations(seed: int, delays: Delays) -> None:
     fleet = driven_on(timed_lines(seed, 9))
     run = drive_fleet(fleet, delays, seed=seed)

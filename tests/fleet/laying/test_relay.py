@@ -79,8 +79,8 @@ def test_a_ring_of_robots_that_each_want_the_next_ones_place_is_served(count: in
 
 
 def test_robots_that_cross_a_circle_through_its_middle_are_served() -> None:
-    places = on_a_circle(10, 15.0)
-    crossing = fleet(*zip(places, places[5:] + places[:5], strict=True))
+    places = on_a_circle(6, 10.0)
+    crossing = fleet(*zip(places, places[3:] + places[:3], strict=True))
     found = relay_paths(crossing, {}, [one.name for one in crossing.members])
     assert not found.not_served
     assert least_distance(found.plans) >= APART

@@ -57,7 +57,7 @@ def total(courses: PackedCourses, laws: PackedLaws) -> float:
 
 @pytest.mark.long_without_jit
 @given(seed=st.integers(0, 10_000))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 @example(seed=14)
 def test_laws_get_no_later_and_stay_apart(seed: int) -> None:
     courses, laws, better = before_and_after(lines_without_rests_in_the_way(seed, 9), 200_000)

@@ -35,12 +35,12 @@ from viaspline.plan_mission import plan
 from viaspline.robot.navigator import Navigator
 
 ROUND_A_TANK = {
-    "world": {"known": [{"name": "tank", "circle": {"center": [20, 0.5], "radius": 3}}]},
+    "world": {"known": [{"name": "tank", "circle": {"center": [12, 0.5], "radius": 2}}]},
     "robot": {
         "radius_m": 0.4, "clearance_m": 0.5, "max_speed_mps": 1.5,
         "drive": {"differential": {"track_m": 0.5}, "lag_s": 0.2, "delay_s": 0.05},
     },
-    "route": {"start": {"at": [0, 0], "heading_deg": 0}, "goal": [40, 0]},
+    "route": {"start": {"at": [0, 0], "heading_deg": 0}, "goal": [24, 0]},
 }  # fmt: skip
 
 
@@ -79,10 +79,10 @@ def test_a_rover_follows_round_an_obstacle_within_a_fifth_of_a_metre(kind: int) 
     vehicle, pilot = PymavlinkVehicle(kind=kind), planar(ROUND_A_TANK)
     ended, drive, _ = driven(vehicle, pilot)
     assert ended == Ended(True, "it has reached its goal; HOLD")
-    assert math.dist((vehicle.x, vehicle.y), (40, 0)) < 0.2
+    assert math.dist((vehicle.x, vehicle.y), (24, 0)) < 0.2
     assert off_path(vehicle, pilot.nav.path) < 0.2
-    nearest = min(math.dist((x, y), (20, 0.5)) for _, x, y, _ in vehicle.trace)
-    assert nearest > 3 + 0.4
+    nearest = min(math.dist((x, y), (12, 0.5)) for _, x, y, _ in vehicle.trace)
+    assert nearest > 2 + 0.4
     assert drive.farthest < 0.2
     assert vehicle.mode == 4
 
@@ -98,7 +98,7 @@ def test_it_comes_to_its_path_from_beside_it() -> None:
     vehicle, pilot = PymavlinkVehicle(at=(0.0, 0.35), heading=0.2), planar(ROUND_A_TANK)
     ended, _, _ = driven(vehicle, pilot)
     assert ended.reached
-    assert math.dist((vehicle.x, vehicle.y), (40, 0)) < 0.2
+    assert math.dist((vehicle.x, vehicle.y), (24, 0)) < 0.2
 
 
 def test_a_robot_of_which_no_drive_is_known_follows_too() -> None:

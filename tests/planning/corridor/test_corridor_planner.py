@@ -72,7 +72,7 @@ def test_a_corner_bends_less_than_any_circle_in_the_middle() -> None:
     assert plan.path.max_curvature()[0] < 1 / 16
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(
     st.floats(0.0, 0.25), st.floats(2.5, 5.0), st.floats(2.5, 5.0),
     st.lists(st.tuples(st.integers(5, 84), st.floats(-0.6, 0.6)), max_size=3,
@@ -81,7 +81,7 @@ def test_a_corner_bends_less_than_any_circle_in_the_middle() -> None:
 def test_it_stays_inside_and_runs_through_its_via_points(
     waves: float, right: float, left: float, gates: list[tuple[int, float]]
 ) -> None:
-    line = ring(30, right, left, waves)
+    line = ring(20, right, left, waves)
     table = np.array(line)
     strip = Strip.of_rows(line, closed=True)
     vias = []

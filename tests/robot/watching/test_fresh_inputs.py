@@ -17,7 +17,7 @@ from viaspline.robot.state import RobotState
 
 DRIVE = {"differential": {"track_m": 0.5}, "delay_s": 0.05, "lag_s": 0.05}
 GOOD = {"delay": 0.05, "lag": 0.05}
-LIDAR = {"lidar": {"range_m": 8, "fov_deg": 270, "beams": 181}}
+LIDAR = {"lidar": {"range_m": 8, "fov_deg": 270, "beams": 91}}
 LOST = (4.0, 5.2)
 """Nothing new comes in this time [s]."""
 
