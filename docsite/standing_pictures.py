@@ -24,6 +24,7 @@ PATIENCE_S = 240.0
 MADE = {
     "barn-run.png": ("run examples/barn-unseen.yaml", "run.png"),
     "corridor-fleet.png": ("plan examples/corridor-bay.yaml", "fleet.png"),
+    "crane-site.png": ("plan examples/crane-site.yaml", "plan.png"),
     "crossing-plan.png": ("plan examples/crossing-carts.yaml", "plan.png"),
     "depot-run.png": ("run examples/depot-round.yaml", "run.png"),
     "fig3-tensions.png": ("figures", "fig3.png"),

@@ -45,7 +45,7 @@ def among_moving(fleet: Fleet, ways: FleetWays, serve: Serve) -> TimedFleet:
     reasons = {k: ENDLESS for k, one in enumerate(ways.members) if one.mission.route.is_patrol}
     while True:
         timed = serve({k: k for k in reasons})
-        plans = timed.plans()
+        plans = timed.planar_plans()
         met = [name for name, plan in plans.items() if not moving_proof(fleet, plan).holds]
         if not met:
             return replace(timed, reasons=reasons)
@@ -129,7 +129,7 @@ def _as_laid(
     alone = {
         name: driven_alone(found[name]) if name in found and found[name] is not fixed.get(name)
         else plan
-        for name, plan in zip(ways.courses.names, ways.plans, strict=True)
+        for name, plan in zip(ways.courses.names, ways.planar, strict=True)
     }  # fmt: skip
     laws = {name: plan.trajectory for name, plan in found.items()}
     new = replace(ways, settled=laws).along(alone, fleet.separation_m)
@@ -146,5 +146,5 @@ def _as_laid(
     if not certify_fleet(new.courses, settled, fleet.separation_m).holds:
         return None
     kept = TimedFleet(new, Timing(settled, dict(blocked)))
-    proofs = (moving_proof(fleet, plan) for plan in kept.plans().values())
+    proofs = (moving_proof(fleet, plan) for plan in kept.planar_plans().values())
     return kept if all(proof.holds for proof in proofs) else None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import TypeAlias
 
 import numpy as np
 
@@ -27,6 +28,9 @@ END_CELL_M = 0.01
 """Length of the first and of the last cell of a course [m]."""
 SAME_KNOT_M = 1e-7
 """Knots that are no farther apart are one [m]."""
+AnyPlan: TypeAlias = Plan | SpatialPlan
+"""Of a robot in the plane, or of one in space."""
+
 OFF_PATH_SHARE = 1e-9
 """Of a path's length, by which its time law may end beyond it by rounding."""
 
@@ -75,7 +79,7 @@ NO_LAWS: Mapping[str, Trajectory] = MappingProxyType({})
 
 
 def courses_of(
-    plans: Mapping[str, Plan | SpatialPlan],
+    plans: Mapping[str, AnyPlan],
     separation: float,
     laws: Mapping[str, Trajectory] = NO_LAWS,
 ) -> FleetCourses:
@@ -114,7 +118,7 @@ def courses_of(
     return courses_along(tuple(plans), paths)
 
 
-def fleet_path(plan: Plan | SpatialPlan, separation: float, *knots: Floats) -> FleetPath:
+def fleet_path(plan: AnyPlan, separation: float, *knots: Floats) -> FleetPath:
     """The path of a plan, as it is to be cut.
 
     Args:

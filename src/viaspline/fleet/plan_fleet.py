@@ -103,7 +103,7 @@ def plan_fleet(
             progress(stage, share)
 
     if fleet.is_spatial:
-        return plan_spatial_fleet(fleet, improve, tell, workers)
+        return plan_spatial_fleet(fleet, improve, tell, workers, periods)
     if paths is None:
         paths = crossing_paths(
             fleet, lambda done, of: tell("laying paths", done / of), workers=workers
@@ -248,7 +248,7 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
     if patrols is not None:
         certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
     crossings = ordered_crossings(courses, ways.crossings, timing.laws)
-    plans = timed.plans()
+    plans = timed.planar_plans()
     if fleet.world.moving:
         plans = {name: proven_among(fleet, plan) for name, plan in plans.items()}
     return FleetPlan(

@@ -49,12 +49,12 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet, budget: float) -> TimedFleet |
         None where no more are served by it.
     """
     ways, blocked = timed.ways, timed.timing.blocked
-    fixed = timed.plans()
+    fixed = timed.planar_plans()
     wanted = [k for k in blocked if not ways.members[k].mission.route.is_patrol]
     wanted.sort(key=lambda k: (-ways.members[k].priority, k))
     names = [ways.members[k].name for k in wanted]
     best: TimedFleet | None = None
-    cost = max(laying_cost(ways.plans[robot]) for robot in blocked)
+    cost = max(laying_cost(ways.planar[robot]) for robot in blocked)
     left = int(budget / (PATHS_A_LAYING * cost))
     for room in ROOMS_M:
         wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
@@ -78,7 +78,7 @@ def _along(
         member.name: plan
         if found.get(member.name) is fixed.get(member.name)
         else driven_alone(found.get(member.name, plan))
-        for member, plan in zip(ways.members, ways.plans, strict=True)
+        for member, plan in zip(ways.members, ways.planar, strict=True)
     }
     again = TimedFleet.by_priority(ways.along(plans, fleet.separation_m))
     if again.blocked and len(found) == len(ways.members):

@@ -6,14 +6,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from viaspline.fleet.courses import FleetCourses, courses_of
+from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_of
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.packed_courses import PackedCourses
-from viaspline.planner import Plan
 
 
 def renewed_courses(
-    before: FleetCourses, plans: Mapping[str, Plan], separation: float, changed: Ints
+    before: FleetCourses, plans: Mapping[str, AnyPlan], separation: float, changed: Ints
 ) -> FleetCourses:
     """Courses of which some are cut anew; the same as if all of them were.
 

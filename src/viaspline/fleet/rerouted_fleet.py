@@ -94,7 +94,7 @@ def rerouted_fleet(
 def try_cost(timed: TimedFleet, robot: int) -> float:
     """About what it costs to try another path for a robot [s of the reference machine]."""
     boxes = len(timed.ways.crossings.packed.cell)
-    return LAYINGS_A_TRY * laying_cost(timed.ways.plans[robot]) + boxes / BOXES_A_S
+    return LAYINGS_A_TRY * laying_cost(timed.ways.planar[robot]) + boxes / BOXES_A_S
 
 
 def _key(stretch: ContestedStretch) -> tuple[int, int, int, int]:
@@ -152,7 +152,7 @@ def _rerouted(
         return None
     reach = ways.courses.packed.reach
     found = lay_round_stretch(
-        alone, name, float(reach[robot]), kept.rests, ways.plans[other], float(reach[other]),
+        alone, name, float(reach[robot]), kept.rests, ways.planar[other], float(reach[other]),
         stretch.between,
     )  # fmt: skip
     if found is None:

@@ -5,13 +5,13 @@ Tested through ``fleet/test_plan_fleet``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
 
-from viaspline.fleet.courses import FleetCourses, courses_of
+from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_of
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
@@ -41,6 +41,13 @@ TRIED_AGAIN_BOXES = 10_000_000
 """and as many as have no more boxes of the fleet's crossings than that to look at in all."""
 
 
+def planar_plans(plans: Sequence[AnyPlan]) -> tuple[Plan, ...]:
+    """Plans of robots in the plane, as such."""
+    found = tuple(plan for plan in plans if isinstance(plan, Plan))
+    assert len(found) == len(plans), "these are plans in the plane"
+    return found
+
+
 @dataclass(frozen=True, eq=False)
 class FleetWays:
     """The paths of robots, and where they come near each other.
@@ -55,7 +62,7 @@ class FleetWays:
     """
 
     members: tuple[FleetMember, ...]
-    plans: tuple[Plan, ...]
+    plans: tuple[AnyPlan, ...]
     courses: FleetCourses
     crossings: FleetCrossings
     rides: FleetRides
@@ -74,7 +81,62 @@ class FleetWays:
         rides = rides_of(members, list(plans.values()), paths.courses)
         return cls(members, tuple(plans.values()), paths.courses, paths.crossings, rides)
 
-    def along(self, plans: Mapping[str, Plan], separation: float) -> FleetWays:
+    @classmethod
+    def laid(
+        cls, members: Sequence[FleetMember], plans: Mapping[str, AnyPlan], separation: float
+    ) -> FleetWays:
+        """The ways of robots along paths.
+
+        Args:
+            members: The robots.
+            plans: Theirs, by name, in their order.
+            separation: Free space between any two bodies [m].
+
+        Raises:
+            GaveUpError: They come near each other in too many places.
+        """
+        courses = courses_of(plans, separation)
+        every = tuple(plans.values())
+        rides = rides_of(members, every, courses)
+        return cls(tuple(members), every, courses, crossings_of(courses), rides)
+
+    @property
+    def planar(self) -> tuple[Plan, ...]:
+        """The paths of a fleet in the plane."""
+        return planar_plans(self.plans)
+
+    def name_of(self, number: int) -> str:
+        """What a robot is called, by its number in a timing."""
+        return self.courses.names[number]
+
+    def timed(self, left_out: Sequence[int] = ()) -> Timing:
+        """Robots timed by priority and by the orders that are forced.
+
+        Args:
+            left_out: Those that stand at their starts for good.
+        """
+        priorities = [one.priority for one in self.members]
+        return time_paths(
+            self.courses, self.crossings, self.rides, priorities, left_out, self.settled_laws()
+        )
+
+    def improved(
+        self, timing: Timing, seconds: float, progress: Callable[[float], None] | None = None
+    ) -> Timing:
+        """Sooner laws.
+
+        Args:
+            timing: Of these robots.
+            seconds: For so much work [s on the reference machine].
+            progress: Called with the share of it that is done.
+        """
+        priorities = [one.priority for one in self.members]
+        settled = np.flatnonzero(self.settled_laws().packed.is_timed).tolist()
+        return improve_laws(
+            self.courses, self.crossings, self.rides, timing, priorities, seconds, progress, settled
+        )
+
+    def along(self, plans: Mapping[str, AnyPlan], separation: float) -> FleetWays:
         """The ways of the same robots along other paths.
 
         Args:
@@ -103,7 +165,7 @@ class FleetWays:
                 laws.packed.is_timed[robot] = True
         return laws
 
-    def with_path(self, robot: int, plan: Plan, separation: float) -> FleetWays:
+    def with_path(self, robot: int, plan: AnyPlan, separation: float) -> FleetWays:
         """The ways of the same robots, one of which takes another path.
 
         What each takes alone stays as it was: along the path that it had.
@@ -147,11 +209,7 @@ class TimedFleet:
             ways: Their paths.
             left_out: Robots that stand at their starts, each with one that is in its way.
         """
-        priorities = [one.priority for one in ways.members]
-        timing = time_paths(
-            ways.courses, ways.crossings, ways.rides, priorities, sorted(left_out),
-            ways.settled_laws(),
-        )  # fmt: skip
+        timing = ways.timed(sorted(left_out))
         return cls(ways, replace(timing, blocked={**timing.blocked, **left_out}))
 
     def with_ways(self, ways: FleetWays, robot: int) -> TimedFleet:
@@ -186,7 +244,7 @@ class TimedFleet:
         """The robots that could not be timed."""
         return tuple(self.ways.courses.names[k] for k in sorted(self.timing.blocked))
 
-    def plans(self) -> dict[str, Plan]:
+    def plans(self) -> dict[str, AnyPlan]:
         """The plans of those that are timed, with their laws by the clock of the fleet, by name."""
         ways, laws = self.ways, self.timing.laws
         return {
@@ -197,6 +255,11 @@ class TimedFleet:
             for k, (member, plan) in enumerate(zip(ways.members, ways.plans, strict=True))
             if k not in self.timing.blocked
         }
+
+    def planar_plans(self) -> dict[str, Plan]:
+        """As ``plans``, of a fleet in the plane."""
+        plans = self.plans()
+        return dict(zip(plans, planar_plans(tuple(plans.values())), strict=True))
 
     def past_standing_ones(self, left_out: Collection[int] = ()) -> TimedFleet:
         """With those that could not be timed standing at their starts, in the way of others.
@@ -222,24 +285,13 @@ class TimedFleet:
 
     def _around(self, standing: Mapping[int, int]) -> Timing:
         """All others timed by priority, round those that stand at their starts."""
-        ways, priorities = self.ways, [one.priority for one in self.ways.members]
-        return time_paths(
-            ways.courses, ways.crossings, ways.rides, priorities, sorted(standing),
-            ways.settled_laws(),
-        )  # fmt: skip
+        return self.ways.timed(sorted(standing))
 
     def improved(
         self, seconds: float, progress: Callable[[float], None] | None = None
     ) -> TimedFleet:
         """With sooner laws, for so much work [s on the reference machine]."""
-        ways = self.ways
-        priorities = [one.priority for one in ways.members]
-        settled = np.flatnonzero(ways.settled_laws().packed.is_timed).tolist()
-        timing = improve_laws(
-            ways.courses, ways.crossings, ways.rides, self.timing, priorities, seconds, progress,
-            settled,
-        )  # fmt: skip
-        found = replace(self, timing=timing)
+        found = replace(self, timing=self.ways.improved(self.timing, seconds, progress))
         if self.patrols is None:
             return found
         last = max(found.last_arrival(), *self.patrols.begins.values())
@@ -262,7 +314,7 @@ def on_lattice(ways: FleetWays, separation: float) -> TimedFleet | NoLatticeOrde
         ways: The paths that robots would drive alone.
         separation: Free space between any two bodies [m].
     """
-    plans = dict(zip(ways.courses.names, ways.plans, strict=True))
+    plans = dict(zip(ways.courses.names, ways.planar, strict=True))
     leaving = [one.name for one in ways.members if one.rest == "leave"]
     best: TimedFleet | None = None
     for shape in SHAPES:

@@ -6,6 +6,7 @@ Tested through ``space/test_plan_spatial``.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile, yaw_profile
 from viaspline.space.weighed_ways import WaysPast
 from viaspline.trajectory.limits import Station
+from viaspline.trajectory.trajectory import Trajectory
 
 
 def static_plan(mission: Mission) -> SpatialPlan:
@@ -53,16 +55,33 @@ def static_plan_by(mission: Mission, problem: SpatialProblem, ways: WaysPast) ->
     found = solve_route(problem, ways)
     path = found.path
     yaw = headings_of(problem, path)
-    stops = tuple(stops_of(problem, path))
-    law = retime_in_space(
-        path, problem.limits, stops, yaw, zones=problem.zones, start_time=mission.route.depart_s
-    )
+    law = fastest_law(problem, path, yaw, mission.route.depart_s)
     u = np.asarray(path.parameter(found.airborne)).tolist()
     heights = certify_heights(path.section(*u), problem.world)
     return SpatialPlan(
         mission, problem.world, path, found.certificate, heights, found.ledger, found.airborne,
         problem.limits, yaw, law,
     )  # fmt: skip
+
+
+def fastest_law(problem: SpatialProblem, path: Path, yaw: YawProfile, depart: float) -> Trajectory:
+    """The fastest law along a path if nothing moves.
+
+    Args:
+        problem: Whose path it is.
+        path: It.
+        yaw: Where the body looks along it.
+        depart: When it sets out [s].
+    """
+    stops = tuple(stops_of(problem, path))
+    return retime_in_space(path, problem.limits, stops, yaw, zones=problem.zones, start_time=depart)
+
+
+def as_if_still(plan: SpatialPlan) -> SpatialPlan:
+    """A plan with the fastest law along its path, as if nothing in its world moved."""
+    problem = spatial_problem_of(plan.mission)
+    law = fastest_law(problem, plan.path, plan.yaw, plan.mission.route.depart_s)
+    return replace(plan, trajectory=law, moving=None, waits=())
 
 
 def headings_of(problem: SpatialProblem, path: Path) -> YawProfile:

@@ -246,19 +246,6 @@ def test_the_same_fleet_gets_the_same_plan() -> None:
         assert np.array_equal(one.plans[name].trajectory.times, other.plans[name].trajectory.times)
 
 
-def test_what_moves_is_refused_from_python_as_well() -> None:
-    from viaspline.fleet.laying.lay_paths import THIS_PROCESS
-    from viaspline.fleet.space.plan_spatial_fleet import plan_spatial_fleet
-
-    data = {"world": {"known": [{"circle": {"center": [50, 50], "radius": 2},
-            "motion": {"keyframes": [[0, 50, 50], [9, 60, 50]],
-                                                         "after": "stay"}}]},
-            "fleet": [{"name": "a", "route": {"start": [0, 0, 9], "goal": [9, 0, 9]}}]}  # fmt: skip
-    with pytest.raises(GeometryError, match="isn't planned among things that move"):
-        plan_spatial_fleet(vs.Fleet.model_validate(data), 0.0, lambda words, share: None,
-                           THIS_PROCESS)  # fmt: skip
-
-
 def test_paths_of_the_plane_are_not_laid_for_a_fleet_in_space() -> None:
     from viaspline.fleet.crossing_paths import crossing_paths
 

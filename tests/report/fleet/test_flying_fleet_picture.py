@@ -23,6 +23,7 @@ from viaspline.report.fleet.fleet_picture import fleet_picture, motion_of
 from viaspline.report.fleet.fleet_run_picture import fleet_run_picture
 from viaspline.report.fleet.places_over_time import least_gap, least_gap_in_space
 from viaspline.report.fleet_json import fleet_json
+from viaspline.report.style import MOVING_FILL
 
 FLEET: dict[str, Any] = {
     "world": {
@@ -135,3 +136,16 @@ def test_a_fleet_of_which_nobody_has_a_path_has_a_picture() -> None:
     assert not plan.plans
     assert plan.not_served[0].name == "shut in"
     assert fleet_picture(plan, "nobody")
+
+
+def test_what_moves_is_on_the_picture_of_a_fleet_in_space_and_in_the_plane() -> None:
+    tram = {"name": "tram", "motion": {"from": [12, -14], "velocity_mps": [0, 2]},
+            "circle": {"center": [0, 0], "radius": 3}}  # fmt: skip
+    fleets = [
+        ({**tram, "height_m": [0, 20]}, {"start": [0, 0, 9], "goal": [40, 0, 9]}),
+        (tram, {"start": [0, 0], "goal": [40, 0]}),
+    ]
+    for thing, route in fleets:
+        data = {"world": {"known": [thing]}, "fleet": [{"name": "a", "route": route}]}
+        plan = vs.plan_fleet(vs.Fleet.model_validate(data))
+        assert share_of(MOVING_FILL, fleet_picture(plan, "x")) > 2e-3

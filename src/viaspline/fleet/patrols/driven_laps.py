@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
+from viaspline.fleet.courses import AnyPlan
 from viaspline.kernels.arrays import Floats
 from viaspline.machine.machine_limits import limits_of
-from viaspline.planner import Plan
 from viaspline.planning.plan_drive import repeated
+from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.spatial_request import spatial_problem_of
+from viaspline.space.static_plan import headings_of, stops_of
+from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
@@ -23,7 +28,7 @@ SAME_S = 1e-9
 """Times that are no farther apart are one."""
 
 
-def driven_laps(lap: Plan, laps: int) -> Plan:
+def driven_laps(lap: AnyPlan, laps: int) -> AnyPlan:
     """A plan of several laps, with a halt at the start after each.
 
     Args:
@@ -41,24 +46,31 @@ def driven_laps(lap: Plan, laps: int) -> Plan:
         >>> round(three.trajectory.duration / lap.trajectory.duration, 6)
         3.0
     """
-    mission = lap.mission
-    path = repeated(lap.path, laps)
-    stops = list(stations(path, mission.robot))
-    stops += [
+    asked = lap.mission
+    route = asked.route.model_copy(update={"laps": laps})
+    mission = asked.model_copy(update={"route": route})
+    path, zones = repeated(lap.path, laps), asked.world.speed_zones
+    if isinstance(lap, SpatialPlan):
+        problem = replace(spatial_problem_of(asked), laps=laps)
+        yaw = headings_of(problem, path)
+        stops = tuple(_halting(stops_of(problem, path), path, laps))
+        law = retime_in_space(path, lap.limits, stops, yaw, zones=zones)
+        airborne = (0.0, path.length)
+        return replace(lap, mission=mission, path=path, airborne=airborne, yaw=yaw, trajectory=law)
+    limits = limits_of(asked.robot)
+    law = retime(path, limits, _halting(stations(path, asked.robot), path, laps), zones=zones)
+    return replace(lap, mission=mission, path=path, trajectory=law)
+
+
+def _halting(stops: Iterable[Station], path: Path, laps: int) -> list[Station]:
+    """The stations of several laps, and a halt at the start after each where there is none."""
+    found = list(stops)
+    found += [
         Station(seam)
         for seam in seams_of(path, laps)[1:-1].tolist()
-        if all(abs(stop.distance - seam) > SAME_M for stop in stops)
+        if all(abs(stop.distance - seam) > SAME_M for stop in found)
     ]
-    law = retime(
-        path,
-        limits_of(mission.robot),
-        sorted(stops, key=lambda stop: stop.distance),
-        zones=mission.world.speed_zones,
-    )
-    route = mission.route.model_copy(update={"laps": laps})
-    return replace(
-        lap, mission=mission.model_copy(update={"route": route}), path=path, trajectory=law
-    )
+    return sorted(found, key=lambda stop: stop.distance)
 
 
 def seams_of(path: Path, laps: int) -> Floats:

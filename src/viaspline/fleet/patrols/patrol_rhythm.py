@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.errors import GaveUpError
-from viaspline.fleet.courses import FleetCourses, courses_along, fleet_path
+from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_along, fleet_path
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.patrols.driven_laps import (
@@ -35,7 +35,6 @@ from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import FleetMember
-from viaspline.planner import Plan
 from viaspline.planning.plan_drive import repeated
 from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
@@ -68,13 +67,13 @@ class PatrolRhythm:
     """
 
     period: float
-    rounds: dict[str, Plan]
+    rounds: dict[str, AnyPlan]
     laps: dict[str, int]
     laws: dict[str, Trajectory]
 
 
 def patrol_rhythm(
-    members: Sequence[FleetMember], laps: Mapping[str, Plan], separation: float
+    members: Sequence[FleetMember], laps: Mapping[str, AnyPlan], separation: float
 ) -> PatrolRhythm:
     """Time patrols among each other, so that all of it comes again every period.
 
@@ -137,7 +136,7 @@ class _RoundTiming:
 
     members: Sequence[FleetMember]
     laps: dict[str, int]
-    rounds: dict[str, Plan]
+    rounds: dict[str, AnyPlan]
     courses: FleetCourses
     crossings: FleetCrossings
     passages: PackedPassages
@@ -147,7 +146,7 @@ class _RoundTiming:
 
     @classmethod
     def of(
-        cls, members: Sequence[FleetMember], laps: Mapping[str, Plan], separation: float
+        cls, members: Sequence[FleetMember], laps: Mapping[str, AnyPlan], separation: float
     ) -> _RoundTiming:
         """Rounds of about the same length."""
         longest = max(laps[one.name].trajectory.duration for one in members)
@@ -279,6 +278,6 @@ class _RoundTiming:
         laws.packed.is_timed[window] = True
 
 
-def _stay_between(lap: Plan) -> float:
+def _stay_between(lap: AnyPlan) -> float:
     """How long a robot has to stand between two laps [s]."""
     return max(driven_laps(lap, 2).trajectory.duration - 2.0 * lap.trajectory.duration, 0.0)

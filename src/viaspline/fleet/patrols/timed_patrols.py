@@ -27,9 +27,11 @@ from viaspline.fleet.patrols.driven_laps import (
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.patrols.homes_in_the_way import PatrolMeetings
 from viaspline.fleet.patrols.patrol_rhythm import PatrolRhythm, patrol_rhythm
+from viaspline.fleet.space.hover_places import hover_in_the_way, hovers_of
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.timing.time_paths import copied_laws
 from viaspline.kernels.arrays import Flags
+from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
@@ -183,16 +185,10 @@ class _AskedPatrols:
         found = {}
         for robot, other in out.items():
             passer, stands = (robot, other) if self.flags[robot] else (other, robot)
-            if [passer, stands] in self.meetings.starts.tolist():
-                rest = next(iter(rests_of(self.ways.members[stands], self._reach(stands))))
-            elif [passer, stands] in self.meetings.goals.tolist():
-                *_, rest = rests_of(self.ways.members[stands], self._reach(stands))
-            else:
+            is_start = [passer, stands] in self.meetings.starts.tolist()
+            if not is_start and [passer, stands] not in self.meetings.goals.tolist():
                 continue
-            reason, remedy = rest_in_the_way(
-                self.names[passer], self.ways.plans[passer], rest, self._reach(passer)
-            )
-            found[robot] = (reason, remedy)
+            found[robot] = _, remedy = self._in_the_way(passer, stands, is_start=is_start)
             if self.flags[stands]:
                 name, (_, _, aside) = self.names[stands], remedy.partition(", or ")
                 found[robot] = (
@@ -201,6 +197,17 @@ class _AskedPatrols:
                     f"let '{name}' {aside or 'start elsewhere'}",
                 )
         return found
+
+    def _in_the_way(self, passer: int, stands: int, *, is_start: bool) -> tuple[str, str]:
+        """Why one robot can't get past the place where another rests, and what would let it."""
+        name, plan, member = self.names[passer], self.ways.plans[passer], self.ways.members[stands]
+        if isinstance(plan, SpatialPlan):
+            its = self.ways.plans[stands]
+            assert isinstance(its, SpatialPlan)
+            hovers = list(hovers_of(member, its))
+            return hover_in_the_way(name, plan, hovers[0 if is_start else -1])
+        rests = list(rests_of(member, self._reach(stands)))
+        return rest_in_the_way(name, plan, rests[0 if is_start else -1], self._reach(passer))
 
     def _reach(self, robot: int) -> float:
         return float(self.ways.courses.packed.reach[robot])

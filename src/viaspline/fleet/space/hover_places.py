@@ -24,6 +24,9 @@ from viaspline.space.spatial_plan import SpatialPlan
 LEAST_M: Final = 0.02
 """The radius of an obstacle that a robot's own clearance would make up for [m]."""
 
+LOOKS_M: Final = 0.25
+"""Between places of a path of which the nearest one is told [m]."""
+
 
 @dataclass(frozen=True)
 class HoverPlace:
@@ -96,3 +99,27 @@ def hovers_of(member: FleetMember, plan: SpatialPlan | None) -> Iterator[HoverPl
     yield HoverPlace(member.name, "start", start, body)
     if stays:
         yield HoverPlace(member.name, "goal", goal, body)
+
+
+def hover_in_the_way(name: str, plan: SpatialPlan, hover: HoverPlace) -> tuple[str, str]:
+    """Why a robot can't get past the place where another one is for long, and what would let it.
+
+    Args:
+        name: The robot.
+        plan: Its path.
+        hover: The place that the path comes too near to.
+
+    Returns:
+        (reason, remedy).
+    """
+    along = np.linspace(0.0, plan.path.length, int(plan.path.length / LOOKS_M) + 2)
+    places = np.asarray(plan.path.at_distance(along))
+    nearest = int(hover.gaps(FlyingBody.of(plan.mission.robot), places).argmin())
+    reason = f"'{hover.robot}' rests at its {hover.kind} where '{name}' has to pass, "
+    leaves, verb = ("leave (rest: leave)", "rest") if hover.kind == "goal" else (
+        "depart sooner", "start"
+    )  # fmt: skip
+    return (
+        f"{reason}{along[nearest]:.1f} m along its path",
+        f"let '{hover.robot}' {leaves}, or {verb} at another height",
+    )

@@ -24,6 +24,7 @@ from viaspline.mission.space.flying_body import FlyingBody
 from viaspline.space.laid_round import laid_round
 from viaspline.space.plan_spatial import plan_spatial
 from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.static_plan import as_if_still
 
 KEPT_MORE_M: Final = 0.1
 """What a path keeps from resting places beyond what it must [m],"""
@@ -89,9 +90,14 @@ def lay_in_space(
 
 
 def lay_alone_in_space(member: FleetMember) -> SpatialPlan | NotServed:
-    """A robot's plan as if it were alone, or why there is none."""
+    """A robot's plan as if it were alone, or why there is none.
+
+    Among things that move it is along the path on which it would be soonest alone; its law is the
+    one along that path if nothing moved.
+    """
     try:
-        return plan_spatial(member.mission)
+        plan = plan_spatial(member.mission)
+        return plan if plan.moving is None else as_if_still(plan)
     except (PlanningError, GeometryError) as error:
         return not_served_in_space(member.name, error)
 

@@ -15,12 +15,14 @@ from typing import Final
 import numpy as np
 
 from viaspline.errors import PlanningError
-from viaspline.fleet.space.flown_ways import FlownWays
 from viaspline.fleet.space.lay_in_space import KEPT_MORE_M
+from viaspline.fleet.space.ways_past_moving import WaysPastMoving
+from viaspline.fleet.timed_fleet import FleetWays
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.capsule import Capsule
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.space.flying_body import FlyingBody
+from viaspline.space.among.plan_past_moving import swept
 from viaspline.space.laid_round import laid_round
 from viaspline.space.meeting.gap_of_bodies import BodyPair
 from viaspline.space.spatial_plan import SpatialPlan
@@ -31,19 +33,46 @@ LONGEST_LINE_M: Final = 10.0
 """Of these lines, so that few of them are left out where a robot begins or ends [m]."""
 
 
-def led_apart(ways: FlownWays, robot: int, other: int, separation: float) -> FlownWays | None:
-    """The ways of a fleet with one robot led round the path of another one.
+def led_apart(ways: FleetWays, robot: int, other: int, separation: float) -> FleetWays | None:
+    """The ways of a fleet with one robot led round the path of another one, or of what moves.
 
     Args:
         ways: As they are.
         robot: Who is led.
-        other: Round whose path.
+        other: Round whose path, or the whole way of what moves.
         separation: Free space between any two bodies [m].
 
     Returns:
         None where no path was found.
     """
-    plan, there = ways.plans[robot], ways.plans[other]
+    plan = ways.plans[robot]
+    assert isinstance(plan, SpatialPlan)
+    obstacles = (
+        _way_of(ways, other, plan)
+        if other >= len(ways.members)
+        else _path_of(ways, other, plan, separation)
+    )
+    if not obstacles:
+        return None
+    try:
+        led = laid_round(plan, obstacles)
+        plans = dict(zip(ways.courses.names, ways.plans, strict=True))
+        return ways.along({**plans, ways.courses.names[robot]: led}, separation)
+    except PlanningError:
+        return None
+
+
+def _way_of(ways: FleetWays, other: int, plan: SpatialPlan) -> list[Obstacle]:
+    """All that something that moves passes, as obstacles to a robot."""
+    assert isinstance(ways, WaysPastMoving), "only there is what moves"
+    name = ways.name_of(other)
+    return [part for one in ways.moving if one.name == name for part in swept(one, plan)]
+
+
+def _path_of(ways: FleetWays, other: int, plan: SpatialPlan, separation: float) -> list[Obstacle]:
+    """The path of a robot as obstacles to another one, but for where that one has to pass."""
+    there = ways.plans[other]
+    assert isinstance(there, SpatialPlan)
     body, its = (FlyingBody.of(one.mission.robot) for one in (plan, there))
     pair = BodyPair(
         body.radius + its.radius, body.half_height + its.half_height, body.margin + its.margin
@@ -55,9 +84,7 @@ def led_apart(ways: FlownWays, robot: int, other: int, separation: float) -> Flo
     own = plan.mission.robot
     core = np.hypot(body.radius, body.half_height)
     radius = far - float(core) - body.margin - own.clearance_m
-    if not free:
-        return None
-    obstacles = [
+    return [
         Obstacle(
             name=f"the path of {ways.members[other].name}, {k + 1}",
             capsule=Capsule.model_validate(
@@ -66,10 +93,6 @@ def led_apart(ways: FlownWays, robot: int, other: int, separation: float) -> Flo
         )
         for k, (first, last) in enumerate(free)
     ]
-    try:
-        return ways.with_paths({robot: laid_round(plan, obstacles)}, separation)
-    except PlanningError:
-        return None
 
 
 def _lines(plan: SpatialPlan) -> list[tuple[Floats, Floats]]:

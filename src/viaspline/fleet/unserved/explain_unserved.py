@@ -101,7 +101,7 @@ def _explained(
 
 def _trial_cost(timed: TimedFleet) -> float:
     """What it costs to plan the fleet once more [s of the reference machine]."""
-    plans = timed.ways.plans
+    plans = timed.ways.planar
     laying = len(plans) * max(laying_cost(plan) for plan in plans)
     return TRIAL_S + laying + len(timed.ways.crossings.packed.cell) / BOXES_A_S
 

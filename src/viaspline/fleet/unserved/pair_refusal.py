@@ -19,7 +19,7 @@ def cannot_both_be_served(fleet: Fleet, timed: TimedFleet, robot: int, other: in
         robot: One of them.
         other: The other one.
     """
-    plans = timed.ways.plans[robot], timed.ways.plans[other]
+    plans = timed.ways.planar[robot], timed.ways.planar[other]
     if any(plan.path.dimension != 2 for plan in plans):
         return False
     one, two = (_passing(fleet, timed, k) for k in (robot, other))

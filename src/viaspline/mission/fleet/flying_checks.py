@@ -16,13 +16,10 @@ from viaspline.mission.space.spatial_checks import spatial_faults
 from viaspline.mission.space.spatial_parts import SpatialParts
 from viaspline.mission.unplaced_faults import Path, UnplacedFault
 
-PATROL: Final = (
-    "is a patrol that never ends, and fleets in space fly none",
-    "give its route laps: how often it is flown",
-)
-MOVING: Final = (
-    "a fleet in space isn't planned among things that move",
-    "leave out their motion, or plan each of the missions by itself",
+TAKES_OFF: Final = (
+    "is a patrol that never ends and takes off, so that no lap ends where it began",
+    "let it start in the air (give its start a height, and leave out takeoff), or give its route "
+    "laps",
 )
 IN_THE_PLANE: Final = (
     "has no heights, and others of the fleet, or its world, have: robots on the ground and in "
@@ -49,9 +46,6 @@ def flying_faults(partial: PartialFleet, misshapen: Collection[Path]) -> list[Un
         misshapen: Paths of obstacles and fences that have no usable shape.
     """
     faults = []
-    for path, obstacle in partial.world.known:
-        if obstacle.motion is not None:
-            faults.append(UnplacedFault((*path, "motion"), *MOVING, at_key=True))
     for kind in partial.kinds.values():
         keys = planar_keys_of({"robot": kind.robot})
         faults += _moved(planar_key_faults(keys), ("robot",), kind.robot_path)
@@ -62,8 +56,8 @@ def flying_faults(partial: PartialFleet, misshapen: Collection[Path]) -> list[Un
             faults.append(UnplacedFault(member.path, *IN_THE_PLANE))
             continue
         flying.append(member)
-        if member.is_patrol:
-            faults.append(UnplacedFault(member.path, *PATROL))
+        if member.is_patrol and member.parts.space is not None and member.parts.space.has_takeoff:
+            faults.append(UnplacedFault(member.path, *TAKES_OFF))
         for fault in _faults_of(member, partial, misshapen):
             if (fault.path, fault.problem) not in told:  # what is wrong with the world
                 told.add((fault.path, fault.problem))

@@ -30,6 +30,7 @@ from viaspline.report.fleet.fleet_marks import (
     paths_of,
 )
 from viaspline.report.fleet.flown_scene import FlownScene
+from viaspline.report.fleet.moving_of_fleet import draw_moving_of_fleet
 from viaspline.report.fleet.places_over_time import FleetMotion
 from viaspline.report.fleet.waits_chart import STANDS_COLOUR
 from viaspline.report.labels import Labels
@@ -76,6 +77,7 @@ def draw_fleet_on(
     members = plan.fleet.members
     labels = Labels(sheet.map)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre)
+    handles += draw_moving_of_fleet(sheet.map, labels, plan)
     paths = paths_of(plan)
     draw_paths(sheet.map, paths, colours)
     for path, (name, colour) in zip(paths, colours.of.items(), strict=True):

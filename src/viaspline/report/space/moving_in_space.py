@@ -47,7 +47,7 @@ def draw_moving_in_space(axes: Axes, labels: Labels, plan: SpatialPlan) -> list[
         return []
     law = plan.trajectory
     span = law.start_time, law.end_time
-    return _draw(axes, labels, solids_past(plan), span, plan.moving.tightest_at_s)
+    return draw_moving_solids(axes, labels, solids_past(plan), span, plan.moving.tightest_at_s)
 
 
 def draw_met_in_space(axes: Axes, labels: Labels, run: SpatialRun) -> list[Artist]:
@@ -56,7 +56,8 @@ def draw_met_in_space(axes: Axes, labels: Labels, run: SpatialRun) -> list[Artis
     if met is None:
         return draw_moving_in_space(axes, labels, run.plan)
     span = float(run.times[0]), float(run.times[-1])
-    found = _draw(axes, labels, solids_met(run), span, met.time if met.time is not None else 0.0)
+    nearest_at = met.time if met.time is not None else 0.0
+    found = draw_moving_solids(axes, labels, solids_met(run), span, nearest_at)
     return found + _draw_contacts(axes, labels, run)
 
 
@@ -77,11 +78,22 @@ def _draw_contacts(axes: Axes, labels: Labels, run: SpatialRun) -> list[Artist]:
     return handles
 
 
-def _draw(
+def draw_moving_solids(
     axes: Axes, labels: Labels, solids: Sequence[MovingSolid], span: tuple[float, float],
     nearest_at: float,
 ) -> list[Artist]:  # fmt: skip
-    """The ways of things for a while, and where they are at a time [s]."""
+    """Draw the ways of things for a while, and where they are at a time.
+
+    Args:
+        axes: Of the map.
+        labels: Where names are asked for.
+        solids: The things.
+        span: From when to when their ways are drawn [s].
+        nearest_at: When the shapes are drawn [s].
+
+    Returns:
+        What belongs in a legend; nothing where nothing moves.
+    """
     if not solids:
         return []
     times = np.linspace(*span, INSTANTS)
@@ -100,7 +112,7 @@ def _draw(
             axes.add_patch(body)
             height = "" if one.body[1] > np.ptp(way[:, 2]) + 1e3 else f" at {z:.1f} m"
             labels.add(f"{style.short(one.name)}{height}", (x, y), rank=RANK, colour=style.MOVING)
-    words = f"moves; as it is at {now[0]:.1f} s, when the robot is nearest"
+    words = f"moves; as at {now[0]:.1f} s, when it is nearest"
     return [
         Line2D([], [], color=style.MOVING, marker="o", markersize=7, label=words,
                markerfacecolor=style.MOVING_FILL)
