@@ -12,6 +12,7 @@ import numpy as np
 
 from viaspline.identify.drive_log import DriveLog
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.tracking.lagged_response import lagged_response
 
 FINE_S, MOST_STEPS = 0.01, 12_000
 """Steps of the response [s]; longer ones for logs that would need more."""
@@ -67,14 +68,8 @@ def response(
         0.632
     """
     share = 1.0 if lag <= 0.0 else 1.0 - math.exp(-step / lag)
-    most, slope = limits.most, limits.slope * step
-    wanted = np.clip(limits.share * commands, -most, most).tolist()
-    now, found = first, [first]
-    for to in wanted[:-1]:
-        change = (to - now) * share
-        now += min(max(change, -slope), slope)
-        found.append(now)
-    return np.array(found)
+    wanted = np.clip(limits.share * commands, -limits.most, limits.most)
+    return lagged_response(wanted, share, limits.slope * step, float(first))
 
 
 def summed(values: Floats, step: float) -> Floats:

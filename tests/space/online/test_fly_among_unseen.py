@@ -66,7 +66,7 @@ def test_what_stands_in_the_way_for_good_ends_the_flight_before_it_with_its_name
 
 
 def test_what_goes_away_again_is_waited_for() -> None:
-    gate = moves("gate", 25.0, [[0, 40, 0, 10], [7, 40, 0, 10], [12, 40, 0, 110]])
+    gate = moves("gate", 25.0, [[0, 40, 0, 10], [5, 40, 0, 10], [8, 40, 0, 110]])
     plan = plan_spatial(mission([gate], reach=30))
     run = fly(plan, step=0.2)
     gaps, speeds = gaps_and_speeds(run, gate)
