@@ -52,6 +52,31 @@ def test_what_comes_head_on_is_flown_round_where_it_is_seen_soon_enough() -> Non
     assert run.speeds[(run.times > 4) & (run.times < 15)].min() > 2.5
 
 
+@pytest.mark.parametrize("side", [0.0, 0.5])
+def test_what_comes_head_on_is_swerved_from_though_it_is_seen_late(side: float) -> None:
+    """7 to 8 m/s towards each other, seen 20 m off by a sensor that is a little wrong."""
+    plane = moves("plane", 1.0, [[0, 80, side, 10], [33, -20, side, 10]])
+    run = fly(plan_spatial(mission([plane], reach=20, noise=0.2)))
+    gaps, speeds = gaps_and_speeds(run, plane)
+    assert run.reached
+    assert gaps.min() >= CLEARANCE - 1e-3
+    assert speeds[len(speeds) // 4 : len(speeds) // 2].min() > 2.5
+    assert [via.name for via in run.replans[0].path.vias if via.name == "aside"] == ["aside"]
+
+
+def test_a_place_that_was_swerved_through_is_not_served_by_a_later_path() -> None:
+    """Two come head on, one after the other, from either side of the line."""
+    first = moves("first", 1.0, [[0, 80, 0.3, 10], [33, -20, 0.3, 10]])
+    later = moves("later", 1.0, [[0, 118, -0.3, 10], [47, -20, -0.3, 10]])
+    run = fly(plan_spatial(mission([first, later], reach=20, noise=0.1)))
+    assert run.reached
+    for one in (first, later):
+        assert gaps_and_speeds(run, one)[0].min() >= CLEARANCE - 1e-3
+    paths = [one.path for one in run.replans if one.path is not None]
+    assert len(paths) >= 2
+    assert all(sum(via.name == "aside" for via in path.vias) <= 1 for path in paths)
+
+
 def test_what_stands_in_the_way_for_good_ends_the_flight_before_it_with_its_name(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -86,13 +111,13 @@ def test_things_that_move_on_the_map_and_off_it_are_both_let_pass() -> None:
 
 
 def test_what_stands_unseen_behind_what_moves_unseen_is_led_round_too() -> None:
-    stands = {"name": "mast", "ball": {"center": [55, 0, 10], "radius": 2}}
+    stands = {"name": "mast", "ball": {"center": [68, 0, 10], "radius": 2}}
     slow = moves("kite", 1.0, [[0, 30, -12, 10], [16, 30, 12, 10]])
     run = fly(plan_spatial(mission([slow, stands])))
     assert run.reached
     assert "mast" in {name for one in run.replans for name in one.obstacles}
     assert run.clearance >= CLEARANCE - 1e-6
-    free = np.linalg.norm(run.positions - (55, 0, 10), axis=1).min() - 2.5
+    free = np.linalg.norm(run.positions - (68, 0, 10), axis=1).min() - 2.5
     assert free >= run.clearance - 1e-6
     assert gaps_and_speeds(run, slow)[0].min() >= CLEARANCE - 1e-3
 

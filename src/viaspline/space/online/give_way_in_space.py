@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -27,6 +28,7 @@ from viaspline.space.online.flight_meeting import FlightMeeting, meeting_in_flig
 from viaspline.space.online.lead_past import ended, still_ahead, taken_over
 from viaspline.space.online.replan_in_space import NewLeg, replan_in_space
 from viaspline.space.online.retimed_ahead import FlightAhead, fastest_ahead, law_past
+from viaspline.space.online.swerves_in_space import swerves
 from viaspline.space.online.takeover import Takeover, braked_takeover, smooth_takeover
 from viaspline.space.online.ways_round_moving import ways_round
 from viaspline.space.without_ground import without_ground
@@ -191,11 +193,12 @@ def _by_another_way(
         meeting = _meeting(flight, fastest, ahead, APART_M[0])
     if meeting is None:
         return None
-    for begins in _takeovers(flight, now, ahead):
+    begins_at = list(_takeovers(flight, now, ahead))
+    for ways, begins in product((swerves, ways_round), begins_at):
         best = None
         until = max(flight.legs[-1].law.end_time, begins.time) + MAX_HELD_UP_S
         foreseen = _from(flight.tracks.foreseen(now, until, APART_M[0]), begins.time)
-        for found in ways_round(flight, begins, meeting, foreseen):
+        for found in ways(flight, begins, meeting, foreseen):
             if found.leg.law.end_time + GAIN_S < ends:
                 best, ends = found, found.leg.law.end_time
         old = ended(flight.legs[-1], begins, flight.problem.limits.along.brake, flight.known)

@@ -31,6 +31,9 @@ from viaspline.trajectory.retime import braking
 SPEED_SHARES: Final = (0.6, 0.3, 0.0)
 """Of the speed, down to which the robot brakes where a path can't be flown into any faster."""
 
+ASIDE: Final = "aside"
+"""What a place is called through which a path swerves: it needn't be served by another path."""
+
 
 def reacted(flight: Flight, now: float, seen: Sequence[UnseenSolid]) -> Flight:
     """A flight in which something was seen: with another path, if it is in the way."""
@@ -97,13 +100,14 @@ def _is_passed_clear(flight: Flight, now: float, one: UnseenSolid) -> bool:
 
 
 def still_ahead(flight: Flight, begins: Takeover) -> tuple[SpatialVia, ...]:
-    """The via points after a take-over."""
+    """The via points of the route after a take-over."""
     leg, problem = flight.legs[-1], flight.problem
     users = [via for via in leg.path.vias if via.kind == "user"]
     users = users[problem.takeoff is not None : len(users) - (problem.landing is not None)]
     distances = np.asarray(leg.path.distance([via.u for via in users]))
     later = distances > begins.distance + 1e-6
-    return tuple(via for via, after in zip(problem.vias, later, strict=True) if after)
+    vias = zip(problem.vias, later, strict=True)
+    return tuple(via for via, after in vias if after and via.name != ASIDE)
 
 
 def taken_over(
