@@ -30,6 +30,7 @@ def plan_of(*robots: dict[str, Any]) -> FleetPlan:
 
 
 PATROLS = plan_of(patrol([0, 0], [20, 0]), patrol([10, 9], [10, -14]))
+SLANTED = plan_of(patrol([0, 0], [20, 5]), patrol([10, 9], [10, -14]))
 MIXED = plan_of(
     patrol([0, 0], [12, 0]),
     patrol([6, 9], [6, -60]),
@@ -121,12 +122,17 @@ def test_patrols_that_halt_and_are_not_heard_stay_apart_and_go_on(seed: int, mix
         assert come[name] > plan.plans[name].path.length
 
 
-def test_a_patrol_that_is_taken_out_does_not_hold_the_others_up() -> None:
-    assert PATROLS.patrols is not None
-    nav = FleetNavigator(PATROLS, period=STEP_S).without("r1")
+@pytest.mark.parametrize(
+    ("plan", "gone"), [(PATROLS, "r1"), (SLANTED, "r1"), (SLANTED, "r0")],
+    ids=["square", "slanted", "slanted, the other"],
+)  # fmt: skip
+def test_a_patrol_that_is_taken_out_does_not_hold_the_others_up(plan: FleetPlan, gone: str) -> None:
+    assert plan.patrols is not None
+    nav = FleetNavigator(plan, period=STEP_S).without(gone)
+    (left,) = set(plan.plans) - {gone}
     come, speed = 0.0, 0.0
-    for time in np.arange(0.0, 6.0 * PATROLS.patrols.period, STEP_S):
-        commands, nav = nav.step([ProgressReport("r0", time, come, speed)], float(time))
-        speed = commands["r0"].speed
-        come = max(come, commands["r0"].distance)
-    assert come > PATROLS.plans["r0"].path.length
+    for time in np.arange(0.0, 6.0 * plan.patrols.period, STEP_S):
+        commands, nav = nav.step([ProgressReport(left, time, come, speed)], float(time))
+        speed = commands[left].speed
+        come = max(come, commands[left].distance)
+    assert come > plan.plans[left].path.length

@@ -127,7 +127,8 @@ def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> Non
     Args:
         orders: Who passes first where.
         promised: The farthest that each robot may take to be granted [m], (n,).
-        progress: How far each has come at least [m], (n,).
+        progress: How far each has come at least [m], (n,); inf for one that has left the world, and
+            is in nobody's way whatever it was let into.
 
     Raises:
         GeometryError: With who was to pass before whom.
@@ -135,7 +136,8 @@ def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> Non
     packed = orders.packed
     robot = np.repeat(np.arange(len(orders.names)), np.diff(packed.first))
     counts = orders.leaders[packed.crossing] == packed.other
-    late = counts & (promised[robot] > packed.place + SAME_M)
+    is_here = np.isfinite(progress)[robot]
+    late = counts & is_here & (promised[robot] > packed.place + SAME_M)
     wrong = late & (progress[packed.other] < packed.passed)
     if wrong.any():
         b = int(np.flatnonzero(wrong)[0])
