@@ -7,12 +7,14 @@ from itertools import product
 import numpy as np
 import pytest
 import shapely
+from shapely.affinity import affine_transform
 
 import viaspline as vs
 from viaspline.kernels.curve.measure import bending
 from viaspline.planning.methods.bent_gently import BentGently
 
 KEPT = 1.0
+CART = ((-0.7, -0.6), (1.3, -0.6), (1.3, 0.6), (-0.7, 0.6))
 
 
 def mission(seed: int, speed: float = 2.0, **route: object) -> vs.Mission:
@@ -25,6 +27,14 @@ def mission(seed: int, speed: float = 2.0, **route: object) -> vs.Mission:
         "world": {"known": discs},
         "robot": {"radius_m": 0.6, "clearance_m": 0.4, "max_speed_mps": speed, "max_accel_mps2": 1},
         "route": {"start": [0, 0], "via": [[50, 20]], "goal": [100, 0], "detours": "short"} | route,
+    })  # fmt: skip
+
+
+def of_body(asked: vs.Mission) -> vs.Mission:
+    """The same for a cart as wide, with a long nose."""
+    limits = asked.robot.model_dump(exclude_defaults=True, exclude={"radius_m"})
+    return vs.Mission.model_validate({
+        "world": asked.world, "route": asked.route, "robot": limits | {"footprint": CART},
     })  # fmt: skip
 
 
@@ -147,3 +157,42 @@ def test_where_corners_cost_time_a_path_that_bends_less_is_driven_sooner(
         saved.append(1.0 - plan.trajectory.duration / turns.trajectory.duration)
     assert min(saved) > -0.004
     assert np.median(saved) > 0.01
+
+
+def test_bodies_bend_as_little_as_discs_that_are_as_wide(monkeypatch: pytest.MonkeyPatch) -> None:
+    ring = shapely.Polygon(CART)
+    for seed in range(4):
+        disc, cart = mission(seed, speed=6.0), of_body(mission(seed, speed=6.0))
+        best, turns, plan = vs.plan(disc), without(monkeypatch, cart), vs.plan(cart)
+        assert plan.trajectory.duration <= 1.002 * turns.trajectory.duration
+        assert plan.trajectory.duration <= 1.01 * best.trajectory.duration
+        assert bending(plan.path.spans)[0] <= 1.1 * bending(best.path.spans)[0]
+        assert plan.certificate.clearance >= 0.4
+        at = np.linspace(*plan.path.domain, 2001)
+        poses = zip(plan.path.evaluate(at), plan.path.tangent(at), strict=True)
+        bodies = [affine_transform(ring, [t[0], -t[1], t[1], t[0], *p]) for p, t in poses]
+        solid = [
+            shapely.Point(one.circle.center).buffer(one.circle.radius, 64)
+            for one in cart.world.known
+            if one.circle is not None
+        ]
+        assert shapely.distance(bodies, shapely.union_all(solid)).min() >= 0.4 - 1e-6
+
+
+def test_a_body_that_has_no_room_to_turn_at_its_ends_bends_less_between_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    walls = [
+        {"polygon": [[x, y], [x + 5, y], [x + 5, y + 1], [x, y + 1]]}
+        for x in (-2, 57)
+        for y in (1.2, -2.2)
+    ]
+    free = of_body(mission(0, goal=[59, 0], via=[]))
+    known = [*walls, {"circle": {"center": [30, 1], "radius": 5}}]
+    asked = vs.Mission.model_validate({
+        "world": {"known": known}, "robot": free.robot, "route": free.route,
+    })  # fmt: skip
+    turns, plan = without(monkeypatch, asked).path, vs.plan(asked).path
+    assert bending(plan.spans)[0] < 0.9 * bending(turns.spans)[0]
+    for u, end in ((0.0, 0.0), (float(len(plan.spans)), float(len(turns.spans)))):
+        np.testing.assert_allclose(plan.tangent(u), turns.tangent(end), atol=1e-9)

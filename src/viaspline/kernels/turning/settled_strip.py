@@ -16,18 +16,18 @@ from viaspline.kernels.turning.bent_strip import bent_strip
 from viaspline.kernels.turning.strip_places import sharpest_step, strip_normals, strip_places
 from viaspline.kernels.turning.strip_room import strip_room
 from viaspline.kernels.turning.strip_spans import strip_spans
+from viaspline.kernels.turning.swept_sides import StripBody, swept_sides
 from viaspline.kernels.world.packed import PackedWorld
 
 STEP = 6.0  # between places, in required distances, at most
 LEAST_PLACES, MOST_PLACES = 16, 400  # of a leg, of the path
 TURN_RAD = 0.2  # from place to place, at most
-SLACK = 1e-3  # of what is required, that is kept beyond it
 LEAST_ROOM_M = 1e-5  # between bounds, where there is none
 MOST_TURNED = 0.3  # that a step is turned by at once [rad]
 KINK_RAD = 1.0  # from step to step
 LITTLE_TURNED = 0.03  # the same, for which places need not be laid anew [rad]
 MOST_ROUNDS = 10  # of moving places
-ROOM = 0.05  # of what places may still move where they rest: as much of what is kept may be missing
+MISSING = 50.0  # of what places may still move where they rest: as many slacks may be missing
 
 
 class StripPlaces(NamedTuple):
@@ -59,48 +59,49 @@ class StripPlaces(NamedTuple):
 
 @inner
 def _looking(
-    world: PackedWorld, required: float, ends: Floats, places: Floats, joints: Ints, fixed: Flags,
+    world: PackedWorld, body: StripBody, ends: Floats, places: Floats, joints: Ints, fixed: Flags,
     normals: Floats, low: Floats, high: Floats,
 ) -> StripPlaces:  # fmt: skip
     """A strip at places, with a look at the room that it has there."""
     spans = strip_spans(places, normals, ends)
     reach, rooms = np.empty(low.size), np.empty(low.size)
-    kept = (1.0 + SLACK) * required
-    strip_room(world, places, normals, spans, kept, low, high, reach, rooms)
+    beside, kept = np.empty(low.size), np.empty(low.size)
+    swept_sides(world, body, places, normals, spans, beside, kept)
+    kept *= 1.0 + body.slack
+    strip_room(world, places, normals, spans, beside, kept, low, high, reach, rooms)
     return StripPlaces(places, joints, fixed, normals, spans, low, high, reach, rooms)
 
 
 @kernel
 def placed_strip(
-    world: PackedWorld, required: float, ends: Floats, fineness: float, spans: Floats, joints: Ints
+    world: PackedWorld, body: StripBody, ends: Floats, fineness: float, spans: Floats, joints: Ints
 ) -> StripPlaces:
     """A strip as a curve lies, with nothing known of the room beside it but what it sees there.
 
     Args:
         world: What to keep clear of.
-        required: What is kept from it [m].
+        body: What drives along it.
         ends: Directions in which it leaves its start and comes to its end, unit vectors, nan where
             it is free, (2, 2).
         fineness: By how much nearer to each other places are than usual.
         spans: The curve: Bézier control polygons [m], (m, 4, 2).
         joints: The span that begins at each via point, its start among them; m at its end, (k,).
     """
-    places, at = strip_places(
-        spans, joints, STEP * required / fineness, TURN_RAD / fineness, LEAST_PLACES, MOST_PLACES
-    )
+    step, turn = STEP * body.required / fineness, TURN_RAD / fineness
+    places, at = strip_places(spans, joints, step, turn, LEAST_PLACES, MOST_PLACES)
     count = places.shape[0]
     low, high = np.full(count, -np.inf), np.full(count, np.inf)
     fixed = np.zeros(count, np.bool_)
     fixed[at] = True
     fixed[1] |= not math.isnan(ends[0, 0])
     fixed[count - 2] |= not math.isnan(ends[1, 0])
-    return _looking(world, required, ends, places, at, fixed, strip_normals(places), low, high)
+    return _looking(world, body, ends, places, at, fixed, strip_normals(places), low, high)
 
 
 @inner
 def _moved(
     world: PackedWorld,
-    required: float,
+    body: StripBody,
     ends: Floats,
     fineness: float,
     strip: StripPlaces,
@@ -123,21 +124,21 @@ def _moved(
             places[j, axis] += moved[j] * strip.normals[j, axis]
     if turned > LITTLE_TURNED:
         spans = strip_spans(places, strip.normals, ends)
-        return placed_strip(world, required, ends, fineness, spans, strip.joints), most
+        return placed_strip(world, body, ends, fineness, spans, strip.joints), most
     at = strip.joints, strip.fixed, strip.normals
-    return _looking(world, required, ends, places, at[0], at[1], at[2], low, high), most
+    return _looking(world, body, ends, places, at[0], at[1], at[2], low, high), most
 
 
 @kernel
 def settled_strip(
-    world: PackedWorld, required: float, ends: Floats, fineness: float, strip: StripPlaces,
+    world: PackedWorld, body: StripBody, ends: Floats, fineness: float, strip: StripPlaces,
     tension: float, settled: float,
 ) -> tuple[StripPlaces, bool]:  # fmt: skip
     """A strip at a tension after some rounds of moving its places.
 
     Args:
         world: What to keep clear of.
-        required: What is kept from it [m].
+        body: What drives along it.
         ends: See ``placed_strip``.
         fineness: By how much nearer to each other places are than usual.
         strip: As it is.
@@ -148,9 +149,10 @@ def settled_strip(
         It, and whether it rests; where it doesn't it may have a kink.
     """
     for _ in range(MOST_ROUNDS):
-        strip, most = _moved(world, required, ends, fineness, strip, tension)
+        strip, most = _moved(world, body, ends, fineness, strip, tension)
         if not sharpest_step(strip.places) < KINK_RAD:
             return strip, False
-        if most < settled * required and strip.rooms.min() > -settled * ROOM * required:
+        missing = settled * MISSING * body.slack * body.required
+        if most < settled * body.required and strip.rooms.min() > -missing:
             return strip, True
     return strip, False

@@ -32,22 +32,26 @@ def _on_strip(spans: Floats, at: float) -> tuple[float, float]:
 
 
 @inner
-def _gap(world: PackedWorld, spans: Floats, at: float, limit: float) -> float:
-    """Distance from a place on a curve to what stands there, at most a limit [m]."""
+def _gap(
+    world: PackedWorld, spans: Floats, off: tuple[float, float], at: float, limit: float
+) -> float:  # fmt: skip
+    """Distance from so far off a place on a curve to what stands there, at most a limit [m]."""
     x, y = _on_strip(spans, at)
-    gap, _ = nearest(world, x, y, limit)
+    gap, _ = nearest(world, x + off[0], y + off[1], limit)
     return gap
 
 
 @inner
 def _least_about(
-    world: PackedWorld, spans: Floats, j: int, gap: float, steps: tuple[float, float], near: float
+    world: PackedWorld, spans: Floats, off: tuple[float, float], j: int, gap: float,
+    steps: tuple[float, float], near: float,
 ) -> tuple[float, float]:  # fmt: skip
     """The least distance about place j [m], and the parameter where it is: exact if it is near.
 
     Args:
         world: What stands there.
         spans: The curve through the places [m], (n - 1, 4, 2).
+        off: From where that curve is to from where it is looked [m].
         j: The place.
         gap: Distance from there [m].
         steps: From the place before and to the one after [m].
@@ -55,33 +59,33 @@ def _least_about(
     """
     least, at, middle = gap, float(j), gap
     for i in range(SAMPLES + 1):
-        off = i / SAMPLES - 0.5
-        if middle - abs(off) * (steps[0] if off < 0.0 else steps[1]) > near:
+        share = i / SAMPLES - 0.5
+        if middle - abs(share) * (steps[0] if share < 0.0 else steps[1]) > near:
             continue  # whatever is there, it isn't near
-        here = j + off
-        gap = _gap(world, spans, here, least)
+        here = j + share
+        gap = _gap(world, spans, off, here, least)
         if gap < least:
             least, at = gap, here
     step = 1.0 / SAMPLES
     for _ in range(FINER_ROUNDS):
         if least > near:
             break
-        before = _gap(world, spans, at - step, FAR * near)
-        after = _gap(world, spans, at + step, FAR * near)
+        before = _gap(world, spans, off, at - step, FAR * near)
+        after = _gap(world, spans, off, at + step, FAR * near)
         bend = before - 2.0 * least + after
-        off = 0.5 * (before - after) / bend if bend > 0.0 else math.copysign(1.0, before - after)
-        off = at + step * min(max(off, -1.0), 1.0)
-        gap = _gap(world, spans, off, least)
+        far = 0.5 * (before - after) / bend if bend > 0.0 else math.copysign(1.0, before - after)
+        here = at + step * min(max(far, -1.0), 1.0)
+        gap = _gap(world, spans, off, here, least)
         if gap < least:
-            least, at = gap, off
+            least, at = gap, here
         step *= FINER
     return least, at
 
 
 @kernel
 def strip_room(
-    world: PackedWorld, places: Floats, normals: Floats, spans: Floats, kept: float, low: Floats,
-    high: Floats, reach: Floats, rooms: Floats,
+    world: PackedWorld, places: Floats, normals: Floats, spans: Floats, beside: Floats,
+    kept: Floats, low: Floats, high: Floats, reach: Floats, rooms: Floats,
 ) -> None:  # fmt: skip
     """Look how far places may move: closely about those that have little room.
 
@@ -93,8 +97,9 @@ def strip_room(
         places: [m], (n, 2).
         normals: Unit vectors, left of the path, (n, 2).
         spans: The curve through the places [m], (n - 1, 4, 2).
-        kept: Distance to what stands there [m].
-        low: How far to the left each place has to move at least [m], (n,); changed.
+        beside: How far to the left of each it is looked from, as ``swept_sides`` (n,) [m].
+        kept: Distance from there to what stands there, (n,) [m].
+        low: How far to the left each has to move at least [m], (n,); changed.
         high: How far at most [m], (n,); changed.
         reach: How far it may move at once, either way [m], (n,); filled.
         rooms: Distance beyond what is kept, about each [m], (n,); filled.
@@ -108,18 +113,22 @@ def strip_room(
                 places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
             )  # fmt: skip
         half = 0.5 * max(before, after)
-        gap, _ = nearest(world, places[j, 0], places[j, 1], half + REACH * kept)
-        rooms[j], reach[j] = gap - kept, max(gap - half, LEAST_REACH * kept)
+        nx, ny = normals[j]
+        off = (beside[j] * nx, beside[j] * ny)
+        gap, _ = nearest(
+            world, places[j, 0] + off[0], places[j, 1] + off[1], half + REACH * kept[j]
+        )  # fmt: skip
+        rooms[j], reach[j] = gap - kept[j], max(gap - half, LEAST_REACH * kept[j])
         if rooms[j] > half:
             before = after
             continue
-        gap, at = _least_about(world, spans, j, gap, (before, after), NEAR * kept)
+        gap, at = _least_about(world, spans, off, j, gap, (before, after), NEAR * kept[j])
         before = after
         x, y = _on_strip(spans, at)
-        nx, ny = normals[j]
-        further, _ = nearest(world, x + PROBE_M * nx, y + PROBE_M * ny, gap + kept)
+        x, y = x + off[0], y + off[1]
+        further, _ = nearest(world, x + PROBE_M * nx, y + PROBE_M * ny, gap + kept[j])
         slope = (further - gap) / PROBE_M
-        rooms[j], reach[j] = gap - kept, max(gap, LEAST_REACH * kept)
+        rooms[j], reach[j] = gap - kept[j], max(gap, LEAST_REACH * kept[j])
         if slope > LEAST_SLOPE:
             low[j] = -rooms[j] / slope
         elif slope < -LEAST_SLOPE:

@@ -40,8 +40,9 @@ TURN_WISHES_S, LOCAL_LEG_S = 2e-4, 5e-4
 PUSH_S = 3e-4
 """Of a run of spans that is pushed away from what it is too close to [s]."""
 
-STRIP_S, STRIP_SPAN_S = 2e-3, 5e-5
-"""To bend a run of a path less, as a strip under tension: in all, and for each of its spans [s]."""
+STRIP_S, STRIP_SPAN_S, STRIP_BODY_SPAN_S = 2e-3, 5e-5, 8e-5
+"""To bend a run of a path less, as a strip under tension: in all, and for each of its spans, with a
+disc and with a body on it [s]."""
 
 HEADING_PAIR_BEND_S, HEADING_PAIR_BENDS_S = 1.2e-5, 1e-6
 """Of the length of a leg between two headings, for each bend, and for each pair of bends [s]."""

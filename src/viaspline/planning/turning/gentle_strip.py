@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 
 from viaspline.kernels.curve.measure import bending
+from viaspline.kernels.turning.swept_sides import StripBody
 from viaspline.planning.turning.bendable_run import BendableRun, LaidRun
 from viaspline.planning.turning.tense_strip import TenseStrip
 from viaspline.planning.turning.tension_search import RunPrice, TensionSearch, Tried
@@ -24,21 +25,21 @@ SETTLED, NEARLY_SETTLED = 0.02, 0.1  # of what is required: places move by less 
 
 
 def gentle_strip(
-    run: BendableRun, world: World, required: float, price: RunPrice
+    run: BendableRun, world: World, body: StripBody, price: RunPrice
 ) -> LaidRun | None:
     """Bend a run of a path less, through the same via points and past the same things.
 
     Args:
         run: The run.
         world: What to keep clear of.
-        required: What is kept from it [m].
+        body: What drives along it.
         price: What it may be exchanged for.
 
     Returns:
         That of the least tension that takes hardly longer than it, or than the fastest; None where
         there is none that bends less.
     """
-    search, strip = TensionSearch(price), TenseStrip.along(run, world, required)
+    search, strip = TensionSearch(price), TenseStrip.along(run, world, body)
     if strip.has_kink:
         return None
     tension, restless = search.first / run.length, 0

@@ -11,12 +11,13 @@ from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.curve.measure import bending
 from viaspline.planning.checking.driving_time import driving_time
 from viaspline.planning.problem.spline_path import SplinePath
-from viaspline.planning.problem.work_budget import STRIP_S, STRIP_SPAN_S
+from viaspline.planning.problem.work_budget import STRIP_BODY_SPAN_S, STRIP_S, STRIP_SPAN_S
 from viaspline.planning.turning.bendable_run import BendableRun, LaidRun, RunsOfPath
 from viaspline.planning.turning.driven_price import DrivenPrice
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.gentle_strip import gentle_strip
 from viaspline.planning.turning.laid_turns import through_spans
+from viaspline.planning.turning.strip_body import strip_body
 from viaspline.planning.turning.tension_search import GENTLE_SHARE, RunPrice
 
 LEAST_RUN = 4.0  # of a run that has room to bend less, in required distances
@@ -30,9 +31,10 @@ STRAIGHT_SPAN = 1e-7  # by which a straight one's controls are off, in required 
 def gentler_path(problem: DrivenProblem, laid: SplinePath) -> SplinePath | None:
     """A clear path on the same sides that bends less; None where there is none.
 
-    That is for a disc whose path is chosen by time, and is no round. Lines between via points that
-    it keeps to stay as they are, and so do headings that are given. No turn becomes sharper that
-    the robot has to slow down for, unless that is sooner.
+    That is for a path that is chosen by time, and is no round. Lines between via points that it
+    keeps to stay as they are, and so do headings that are given, and those at ends where a body has
+    no room for another. No turn becomes sharper that the robot has to slow down for, unless that is
+    sooner.
 
     Args:
         problem: What is to be driven.
@@ -57,7 +59,7 @@ def gentler_path(problem: DrivenProblem, laid: SplinePath) -> SplinePath | None:
 
 def _may_be_bent(problem: DrivenProblem) -> bool:
     needs, sequence = problem.requirements, problem.sequence
-    if needs.footprint is not None or not needs.objective.is_time or needs.has_own_tension:
+    if not needs.objective.is_time or needs.has_own_tension:
         return False
     if sequence.closed:  # laps of fleets' patrols are timed in what is left of a period
         return False
@@ -73,8 +75,18 @@ def _in_runs(problem: DrivenProblem, laid: SplinePath) -> RunsOfPath:
         np.ascontiguousarray(laid.spans[:, :, :2]), laid.joints, np.array(detours, np.int64)
     )
     stands = np.array([sequence.stands(k) for k in range(len(laid.joints))])
-    given = sequence.start_tangent is not None, sequence.end_tangent is not None
+    tight = [not _may_turn(problem, place) for place in (planar.spans[0, 0], planar.spans[-1, 3])]
+    given = (
+        tight[0] or sequence.start_tangent is not None,
+        tight[1] or sequence.end_tangent is not None,
+    )
     return RunsOfPath.of(planar, _on_lanes(problem, laid), stands, given)
+
+
+def _may_turn(problem: DrivenProblem, place: Floats) -> bool:
+    """Whether the body keeps clear at a place in whichever direction it stands."""
+    needs = problem.requirements
+    return needs.footprint is None or bool(problem.world.distance(place) >= needs.around)
 
 
 def _on_lanes(problem: DrivenProblem, laid: SplinePath) -> Flags:
@@ -103,8 +115,10 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
     is_short = run.length < LEAST_RUN * problem.requirements.required
     if is_short or before * run.length < STRAIGHT:
         return None
-    problem.requirements.spend(STRIP_S + STRIP_SPAN_S * len(run.laid.spans))
-    pace, stands = problem.requirements.objective.pace, run.stands
+    needs = problem.requirements
+    each = STRIP_SPAN_S if needs.footprint is None else STRIP_BODY_SPAN_S
+    needs.spend(STRIP_S + each * len(run.laid.spans))
+    pace, stands = needs.objective.pace, run.stands
 
     def time(spans: Floats, joints: Ints) -> float:
         rests = np.zeros(len(spans) + 1, np.bool_)
@@ -113,13 +127,13 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
 
     now = time(run.laid.spans, run.laid.joints)
     price = RunPrice(time, now, before, now / (1.0 + GENTLE_SHARE) if least is None else least)
-    bent = gentle_strip(run, problem.world, problem.requirements.required, price)
+    bent = gentle_strip(run, problem.world, strip_body(needs), price)
     if bent is None:
         return None
     peak = bending(bent.spans)[1]
     fast = 1.0 / pace.widest_radius if pace.widest_radius > 0.0 else 0.0
     is_sharper = peak > (1.0 + SHARPER) * max(sharpest, fast)
-    is_round = peak * problem.requirements.outer_radius <= 1.0
+    is_round = peak * needs.outer_radius <= 1.0
     if is_sharper and not (is_round and time(bent.spans, bent.joints) <= (1.0 - TIME_KNOWN) * now):
         return None
     return bent if problem.is_drivable(bent.spans) else None

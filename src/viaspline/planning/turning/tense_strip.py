@@ -17,6 +17,7 @@ from viaspline.kernels.turning.settled_strip import (
     settled_strip,
 )
 from viaspline.kernels.turning.strip_places import sharpest_step
+from viaspline.kernels.turning.swept_sides import StripBody
 from viaspline.planning.turning.bendable_run import BendableRun, LaidRun
 from viaspline.world.world import World
 
@@ -31,7 +32,7 @@ class TenseStrip:
     Attributes:
         run: The run of a path that it began as.
         world: What to keep clear of.
-        required: What is kept from it [m].
+        body: What drives along it.
         fineness: By how much nearer to each other its places are than usual.
         strip: Its places, and what is known of the room on both sides of it.
         is_settled: Whether its places rest.
@@ -39,22 +40,22 @@ class TenseStrip:
 
     run: BendableRun
     world: World
-    required: float
+    body: StripBody
     fineness: float
     strip: StripPlaces
     is_settled: bool = False
 
     @classmethod
-    def along(cls, run: BendableRun, world: World, required: float) -> TenseStrip:
+    def along(cls, run: BendableRun, world: World, body: StripBody) -> TenseStrip:
         """A strip as a run of a path lies."""
         laid = run.laid
-        strip = placed_strip(world.packed, required, run.ends, 1.0, laid.spans, laid.joints)
-        return cls(run, world, required, 1.0, strip)
+        strip = placed_strip(world.packed, body, run.ends, 1.0, laid.spans, laid.joints)
+        return cls(run, world, body, 1.0, strip)
 
     def finer(self) -> TenseStrip:
         """It with places nearer to each other."""
         strip = placed_strip(
-            self.world.packed, self.required, self.run.ends, FINE, self.spans, self.joints
+            self.world.packed, self.body, self.run.ends, FINE, self.spans, self.joints
         )  # fmt: skip
         return replace(self, fineness=FINE, strip=strip, is_settled=False)
 
@@ -66,7 +67,7 @@ class TenseStrip:
             settled: It rests where no place moves by more, in required distances.
         """
         strip, is_settled = settled_strip(
-            self.world.packed, self.required, self.run.ends, self.fineness, self.strip, tension,
+            self.world.packed, self.body, self.run.ends, self.fineness, self.strip, tension,
             settled,
         )  # fmt: skip
         return replace(self, strip=strip, is_settled=is_settled)
@@ -92,5 +93,5 @@ class TenseStrip:
         rooms = self.strip.rooms
         around = np.r_[np.inf, rooms, np.inf]
         lowest = (rooms < around[:-2]) & (rooms <= around[2:])
-        touches = np.flatnonzero(lowest & (rooms < TOUCHES * self.required))
+        touches = np.flatnonzero(lowest & (rooms < TOUCHES * self.body.required))
         return LaidRun(self.spans, self.joints, touches[touches < len(self.spans)])
