@@ -99,6 +99,18 @@ def test_a_robot_joins_patrols_and_they_go_on(since: float) -> None:
     assert drive.come["new"] == pytest.approx(drive.nav.paths["new"].path.length)
 
 
+@pytest.mark.parametrize("since", [1.0, 10.0])
+def test_a_robot_joins_patrols_on_curves_and_they_go_on(since: float) -> None:
+    """Their speeds change all along, and boxes of crossings are a little larger in some laps."""
+    curved = {"spline": {"tension": 0.0}}
+    rounds = patrol([0, 0], [10, 3], [20, 0], [10, -3]), patrol([10, 9], [14, 0], [10, -14], [6, 0])
+    drive = PatrolDrive(vs.plan_fleet(fleet(*({**one, **curved} for one in rounds))))
+    drive.until(since)
+    drive.nav = drive.nav.with_robot(member("new", {"start": [3, 9], "goal": [3, -9]}))
+    assert goes_on(drive)
+    assert drive.come["new"] == pytest.approx(drive.nav.paths["new"].path.length)
+
+
 def test_a_robot_that_would_rest_in_a_patrols_way_does_not_join() -> None:
     drive = PatrolDrive(PLAN)
     drive.until(3.0)

@@ -17,13 +17,15 @@ import numpy as np
 from viaspline.fleet.execution.carried_over import check_let_in
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.dwells import FleetStations
-from viaspline.fleet.execution.fleet_orders import check_settled, laws_order, orders_led
+from viaspline.fleet.execution.fleet_orders import orders_led
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
 
 SAME_M = 1e-4
 """Places of two periods that differ by less are one."""
+SAME_SPAN_M = 0.25
+"""Ends of crossings a period apart that differ by less are one: boxes hold centimetres more."""
 
 
 def rolled_over(
@@ -48,15 +50,14 @@ def rolled_over(
     served = state.stations - _passed(stations, shift)
     if (served < 0).any():
         return state  # one still stands where its next lap begins, for as long as it has to
-    leaders, by_second = laws_order(fleet)
     planned = state.orders.leaders
+    leaders, by_second = planned.copy(), state.orders.by_second.copy()
     for c, was in _a_period_later(fleet, shift).items():
         leader = int(state.packed.leaders[was])
         if leader >= 0:
             is_planned = leader == planned[was]
             leaders[c] = leader
             by_second[c] = bool(state.orders.by_second[was]) if is_planned else True
-    check_settled(fleet, leaders)
     come = state.packed.progress - shift
     orders = orders_led(fleet, leaders, by_second, state.orders.packed.short, come)
     new = FleetProgressState.at_start(fleet, orders)
@@ -125,7 +126,7 @@ def _a_period_later(fleet: DrivenFleet, shift: Floats) -> dict[int, int]:
         for c in crossings:
             off = np.abs(spans - packed.span[c] - by).max(axis=1)
             nearest = int(off.argmin())
-            if off[nearest] < SAME_M:
+            if off[nearest] < SAME_SPAN_M:
                 found[c] = crossings[nearest]
     return found
 
