@@ -65,6 +65,7 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "load ground": lambda junk: vs.load(PLAN, ground=junk),
     "load_map": vs.load_map,
     "load_plan": vs.load_plan,
+    "load_fleet_plan": vs.load_fleet_plan,
     "load_plan mission": lambda junk: vs.load_plan(SAVED, junk),
     "Plan save": lambda junk: MADE.save(unsaid(junk)),
     "Plan samples": MADE.samples,

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from viaspline.fleet.execution.simulate_fleet import simulate_fleet
     from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.fleet.plan_fleet import plan_fleet
+    from viaspline.fleet.saved.load_fleet_plan import load_fleet_plan
     from viaspline.formats.load import load, origin_of
     from viaspline.maps.grid import Grid
     from viaspline.maps.terrain import Terrain
@@ -133,6 +134,7 @@ _HOMES = {
     "export_fleet": "exports.export_path",
     "fly": "space.online.fly",
     "load": "formats.load",
+    "load_fleet_plan": "fleet.saved.load_fleet_plan",
     "load_map": "mission.load_map",
     "load_plan": "saved_plans.load_plan",
     "origin_of": "formats.load",

@@ -62,7 +62,8 @@ def test_plan_writes_the_fleet_and_a_folder_for_each_robot(fleet: Path, tmp_path
     assert result.exit_code == 0, result.stderr
     files = {file.relative_to(out).as_posix() for file in out.rglob("*") if file.is_file()}
     assert files == {
-        "fleet.json", "fleet.png", "timing.json", "east/plan.json", "east/path.csv",
+        "fleet.json", "fleet.png", "courses.npz", "planned-fleet.yaml", "timing.json",
+        "east/plan.json", "east/path.csv",
         "north/plan.json", "north/path.csv",
     }  # fmt: skip
     assert json.loads((out / "fleet.json").read_text())["served"] is True

@@ -178,12 +178,12 @@ def test_a_path_that_is_not_clear_is_never_written(tmp_path: Path) -> None:
 def test_each_robot_of_a_fleet_has_a_file_and_its_order_is_told_as_lost(tmp_path: Path) -> None:
     members = [
         {"name": "a", "route": {"start": [0, 0], "goal": [20, 0]}},
-        {"name": "b", "route": {"start": [10, -10], "goal": [10, 10]}},
+        {"name": "b/2", "route": {"start": [10, -10], "goal": [10, 10]}},
     ]
     planned = plan_fleet(Fleet.model_validate({"fleet": members}))
     done = export_fleet(planned, tmp_path / "round.path.yaml", ExportOptions())
     assert sorted(file.name for file in tmp_path.iterdir()) == [
-        "round-a.path.yaml", "round-b.path.yaml",
+        "round-a.path.yaml", "round-b_2.path.yaml",
     ]  # fmt: skip
     assert all("who waits for whom" in one.lost[0] for one in done.values())
 

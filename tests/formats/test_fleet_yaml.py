@@ -213,3 +213,18 @@ def _counting(calls: list[Any], name: str) -> Any:
         return read_grid(*arguments, **named)
 
     return counted
+
+
+def test_a_round_of_one_lap_is_written_as_one_and_a_patrol_as_one() -> None:
+    square = {"start": [0, 0], "via": [[9, 0], [9, 9]], "closed": True}
+    fleet = vs.Fleet.model_validate(
+        {
+            "fleet": [
+                {"name": "once", "route": {**square, "laps": 1}},
+                {"name": "for ever", "route": {**square, "start": [20, 0]}},
+            ]
+        }
+    )
+    again = FleetYaml().read(fleet_text(fleet), "round.yaml")
+    assert [one.mission.route.is_patrol for one in again.members] == [False, True]
+    assert again == fleet

@@ -311,7 +311,7 @@ def test_the_plan_of_a_fleet_is_loaded_robot_by_robot_with_what_each_waits(tmp_p
     planned = vs.plan_fleet(fleet)
     planned.save(tmp_path)
     assert any(one.waits_s > 0.0 for one in planned.precedences)
-    with pytest.raises(vs.SavedPlanError, match=r"plan_fleet .* load_plan\(folder / NAME"):
+    with pytest.raises(vs.SavedPlanError, match=r"call load_fleet_plan.* load_plan\(folder / NAME"):
         vs.load_plan(tmp_path)
     for member in fleet.members:
         assert vs.load_plan(tmp_path / member.name, member.mission) == planned.plans[member.name]

@@ -133,18 +133,25 @@ def _end_unserved(planned: Plan | SpatialPlan | FleetPlan) -> None:
 
 
 def _is_saved(given: Path) -> bool:
-    """Whether it is a plan that was saved: its folder, or the ``plan.json`` in that."""
-    from viaspline.saved_plans.load_plan import PLAN_NAME
+    """Whether it is a plan that was saved: its folder, or ``plan.json`` or ``fleet.json`` in it."""
+    from viaspline.saved_plans.load_plan import FLEET_NAME, PLAN_NAME
 
-    return is_folder(given) or given.name == PLAN_NAME
+    return is_folder(given) or given.name in (PLAN_NAME, FLEET_NAME)
 
 
-def _loaded(folder: Path, watch: ProgressBar) -> Plan | SpatialPlan:
-    """A plan that was saved, proven again with the mission that stands beside it."""
+def _loaded(given: Path, watch: ProgressBar) -> Plan | SpatialPlan | FleetPlan:
+    """A plan that was saved, proven again with the mission or fleet that stands beside it."""
+    from viaspline.saved_plans.load_plan import FLEET_NAME, PLAN_NAME
+
     with watch.stage("load", "proving the plan again"):
+        of_fleet = given.name == FLEET_NAME or (given / FLEET_NAME).exists()
+        if of_fleet and not (given / PLAN_NAME).exists():
+            from viaspline.fleet.saved.load_fleet_plan import load_fleet_plan
+
+            return load_fleet_plan(given)
         from viaspline.saved_plans.load_plan import load_plan
 
-        return load_plan(folder)
+        return load_plan(given)
 
 
 def _origin_of(mission: Path, said: str | None, kind: PathFormat) -> tuple[float, float] | None:

@@ -96,12 +96,14 @@ def plan_fleet_file(
             from viaspline.report.fleet_results import (
                 fleet_contents,
                 forget_earlier,
+                planned_fleet_contents,
                 write_robots,
             )
             from viaspline.report.results import write_all
 
             folders = write_robots(planned, target, watch.fraction)
             contents = fleet_contents(planned, file.stem)
+            contents = {**contents, **planned_fleet_contents(fleet, target)}
         files = write_all(folder, contents, watch.times)
         removed = forget_earlier(target, earlier, folders)
     if not quiet:
@@ -153,12 +155,14 @@ def run_fleet_file(
                 fleet_contents,
                 fleet_run_contents,
                 forget_earlier,
+                planned_fleet_contents,
                 write_robots,
             )
             from viaspline.report.results import write_all
 
             folders = write_robots(planned, target, watch.fraction)
             contents = fleet_contents(planned, file.stem)
+            contents = {**contents, **planned_fleet_contents(fleet, target)}
             contents |= fleet_run_contents(planned, done, file.stem, seed=seed)
             if film is not None:
                 from viaspline.report.fleet.fleet_film import FilmedFleet, film_fleet

@@ -34,7 +34,8 @@ def plan(
     r"""Plan a mission: the path, its proof and what it was chosen from.
 
     Writes plan.json, path.csv, plan.png, planned-mission.yaml (with which load_plan in Python reads
-    the plan again) and timing.json; of a fleet fleet.json, fleet.png and timing.json, and for each
+    the plan again) and timing.json; of a fleet fleet.json, fleet.png, courses.npz and
+    planned-fleet.yaml (with which load_fleet_plan reads it again) and timing.json, and for each
     robot a folder with its plan.json and path.csv.
 
     \b

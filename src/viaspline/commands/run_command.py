@@ -56,8 +56,8 @@ def run(
     r"""Plan a mission, drive it and report: the main job.
 
     Writes plan.json, path.csv, plan.png, planned-mission.yaml, run.json, run.csv, run.png and
-    timing.json; of a fleet fleet.json, fleet.png, run.json, run.png and timing.json, and for each
-    robot a folder with its plan.json and path.csv.
+    timing.json; of a fleet fleet.json, fleet.png, courses.npz, planned-fleet.yaml, run.json,
+    run.png and timing.json, and for each robot a folder with its plan.json and path.csv.
 
     \b
     Example:

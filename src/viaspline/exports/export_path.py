@@ -111,7 +111,8 @@ def export_fleet(
 
     Args:
         plan: What was planned.
-        path: The file, to whose name each robot's is added: ``round.plan`` is ``round-a.plan``.
+        path: The file, to whose name each robot's is added, as far as every file system takes it:
+            ``round.plan`` is ``round-a.plan``.
         options: How they are exported.
 
     Returns:
@@ -132,6 +133,7 @@ def export_fleet(
         'round-a.csv'
     """
     from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.report.fleet_results import folder_names
 
     check_kind("plan", plan, FleetPlan, "give what viaspline.plan_fleet(fleet) returns")
     check_kind("path", path, str | Path, "give the file to write")
@@ -141,8 +143,9 @@ def export_fleet(
     kind = path_format_of(path)
     stem, ending = stem_of(Path(path), kind), _ending(Path(path), kind)
     ready: list[tuple[str, Path, bytes, PathTable]] = []
+    names = folder_names(one.name for one in plan.fleet.members)
     for robot, one in plan.plans.items():
-        file = Path(path).with_name(f"{stem}-{robot}{ending}")
+        file = Path(path).with_name(f"{stem}-{names[robot]}{ending}")
         content, table = rendered(one, kind, checked, f"{stem} {robot}", str(file))
         ready.append((robot, file, content, table))
     found = {}

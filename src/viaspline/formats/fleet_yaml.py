@@ -116,4 +116,7 @@ def _member(member: MemberSpec, data: dict[str, Any], folder: Path) -> dict[str,
     if member.route is None:
         problem = f"the mission of robot '{member.name}' was made in memory"
         raise OutputError("<fleet>", f"{problem}; write it to a file and name that")
-    return {**data, "route": route_data(member.route, data["route"], folder)}
+    route = route_data(member.route, data["route"], folder)
+    if member.route.closed and not member.route.is_patrol:
+        route = {**route, "laps": member.route.laps}  # of one lap as well: without it never ends
+    return {**data, "route": route}

@@ -10,6 +10,13 @@ from typing import Final
 from viaspline.errors import OutputError
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.saved.course_record import CourseRecord
+from viaspline.fleet.saved.load_fleet_plan import (
+    COURSES_NAME,
+    PLANNED_FLEET_NAME,
+)
+from viaspline.formats.fleet_yaml import fleet_text
+from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.report.earlier_robots import forget_robots
 from viaspline.report.fleet.fleet_picture import fleet_picture
@@ -19,18 +26,19 @@ from viaspline.report.fleet_run_json import fleet_run_json
 from viaspline.report.result_files import ResultFolder
 from viaspline.report.results import Contents, path_contents
 from viaspline.report.space.spatial_results import spatial_path_contents
+from viaspline.saved_plans.load_plan import FLEET_NAME
 from viaspline.space.spatial_plan import SpatialPlan
 
-FLEET_FILES: Final = ("fleet.json", "fleet.png", "timing.json")
+FLEET_FILES: Final = (
+    FLEET_NAME, "fleet.png", COURSES_NAME, PLANNED_FLEET_NAME, "timing.json"
+)  # fmt: skip
 """What is written for a fleet as a whole."""
 FLEET_RUN_FILES: Final = (*FLEET_FILES, "run.json", "run.png")
 """What is written for a fleet that was driven."""
 ROBOT_FILES: Final = ("plan.json", "path.csv")
 """What is written for each robot that is served."""
 
-_OWN_NAMES: Final = frozenset(
-    {"fleet.json", "fleet.png", "timing.json", "run.json", "run.csv", "run.png"}
-)
+_OWN_NAMES: Final = frozenset({*FLEET_RUN_FILES, "run.csv"})
 _UNSAFE: Final = re.compile(r"[^\w.-]+")
 _LONGEST_NAME: Final = 60
 
@@ -59,7 +67,24 @@ def folder_names(robots: Iterable[str]) -> dict[str, str]:
 def fleet_contents(plan: FleetPlan, name: str) -> Contents:
     """The files of a fleet as a whole: the same bytes every time."""
     folders = folder_names(one.name for one in plan.fleet.members)
-    return {"fleet.json": fleet_json(plan, name, folders), "fleet.png": fleet_picture(plan, name)}
+    return {
+        FLEET_NAME: fleet_json(plan, name, folders),
+        "fleet.png": fleet_picture(plan, name),
+        COURSES_NAME: CourseRecord.of(plan).to_bytes(),
+    }
+
+
+def planned_fleet_contents(fleet: Fleet, folder: Path) -> Contents:
+    """The fleet as it was asked for, beside its plan, which is read again with it.
+
+    Args:
+        fleet: That of a plan.
+        folder: Where it is going to stand.
+
+    Raises:
+        OutputError: It has a map or a robot's mission that was made in memory.
+    """
+    return {PLANNED_FLEET_NAME: fleet_text(fleet, folder)}
 
 
 def fleet_run_contents(plan: FleetPlan, run: FleetRun, name: str, *, seed: int = 0) -> Contents:

@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
 from viaspline.saved_plans.plan_file import PlanFile
 from viaspline.saved_plans.saved_law import saved_law
 from viaspline.trajectory.limits import Limits, Station
@@ -22,6 +23,7 @@ PROVEN_OFF_M: Final = 1e-3
 """Two proofs of one clearance differ by no more."""
 TIMED_OFF: Final = 1e-6
 """Part of a time or a speed by which another machine may round it."""
+_COLUMNS: Final = ("distances", "speeds", "times", "accelerations", "changes", "jerks")
 
 
 def law_within_limits(
@@ -62,7 +64,7 @@ def law_within_limits(
 def law_of_file(
     plan: PlanFile, path: Path, made: Trajectory, limits: Limits, stops: Iterable[Station]
 ) -> Trajectory:
-    """A law that was made again, or that of the file where that takes another time.
+    """The law of a file, which is one that was made again or within the limits of the robot.
 
     A robot of a fleet departs by the clock of the fleet, and waits for others.
 
@@ -76,12 +78,29 @@ def law_of_file(
     Raises:
         SavedPlanError: The law isn't one of the robot on the path, or lasts longer than is said.
     """
-    begins = float(saved_law(plan).start_time)
-    law = made if begins == made.start_time else made.delayed(begins - made.start_time)
-    said = plan.number("trajectory", "duration_s")
-    if abs(said - law.duration) > TIMED_OFF * (1.0 + law.duration):
-        return law_within_limits(plan, path, law, limits, stops)
-    return law
+    law = saved_law(plan)
+    begun = (
+        made
+        if law.start_time == made.start_time
+        else made.delayed(law.start_time - made.start_time)
+    )
+    if _is_as_made(law, begun):
+        check_duration(plan, law)
+        return law
+    return law_within_limits(plan, path, begun, limits, stops)
+
+
+def _is_as_made(law: Trajectory, made: Trajectory) -> bool:
+    """Whether two laws are one, but for how another machine rounds."""
+    if law.stations != made.stations or len(law.times) != len(made.times):
+        return False
+    return all(_near(getattr(law, name), getattr(made, name)) for name in _COLUMNS)
+
+
+def _near(one: Floats | None, other: Floats | None) -> bool:
+    """Whether two columns are one; none stands for noughts."""
+    first, second = (0.0 if column is None else column for column in (one, other))
+    return np.allclose(first, second, TIMED_OFF, TIMED_OFF)
 
 
 def check_duration(plan: PlanFile, law: Trajectory) -> None:

@@ -17,9 +17,8 @@ PLAN_NAME: Final = "plan.json"
 MISSION_NAME: Final = "planned-mission.yaml"
 FLEET_NAME: Final = "fleet.json"
 WHOLE_FLEET: Final = (
-    "holds the plan of a fleet, which is loaded robot by robot; call plan_fleet with the fleet's "
-    "file, which makes the same plan again, or load_plan(folder / NAME, member.mission) for one of "
-    "fleet.members"
+    "holds the plan of a fleet; call load_fleet_plan(folder), or load_plan(folder / NAME, "
+    "member.mission) for one of fleet.members"
 )
 
 
@@ -33,8 +32,8 @@ def load_plan(folder: str | Path, mission: AskedMission | None = None) -> Plan |
     stands.
 
     Args:
-        folder: With ``plan.json``, or that file itself. Of a fleet each robot has a folder: the
-            distance between robots is proven of all of them, and not again here.
+        folder: With ``plan.json``, or that file itself. The plan of a whole fleet is loaded by
+            ``load_fleet_plan``.
         mission: What was planned, with its via points in the order in which they are served; not
             needed where ``planned-mission.yaml`` stands beside the plan.
 

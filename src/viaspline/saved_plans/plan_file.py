@@ -39,15 +39,19 @@ class PlanFile:
     data: Mapping[str, Any]
 
     @classmethod
-    def read(cls, file: File) -> PlanFile:
+    def read(cls, file: File, kind: FileKind = PLAN_FILE) -> PlanFile:
         """Read one.
+
+        Args:
+            file: Where it stands.
+            kind: What it is taken for.
 
         Raises:
             MissionError: There is no such file, or it can't be read.
             SavedPlanError: It is no plan.
         """
         try:
-            data = json.loads(read_text(file, PLAN_FILE))
+            data = json.loads(read_text(file, kind))
         except (ValueError, RecursionError) as error:
             raise SavedPlanError(file, f"is no JSON ({error}); {REMEDY}") from None
         if not isinstance(data, dict):

@@ -32,12 +32,13 @@ from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 
-def planar_plan(plan: PlanFile, mission: Mission) -> Plan:
+def planar_plan(plan: PlanFile, mission: Mission, world: World | None = None) -> Plan:
     """The plan of a file, of which nothing is believed that can be proven.
 
     Args:
         plan: The file.
         mission: As it was planned.
+        world: What it has on its map, if that is packed already.
 
     Raises:
         SavedPlanError: It isn't a plan of the mission, its path isn't clear, or its proof or its
@@ -50,7 +51,7 @@ def planar_plan(plan: PlanFile, mission: Mission) -> Plan:
     check_served(plan, path, (AskedPoint(i, point.at, point.dwell_s) for i, point in points))
     error = plan.number("tracking_error_m") if "tracking_error_m" in plan.data else 0.0
     requirements = Requirements.of(mission, error)
-    world = World.known(mission)
+    world = World.known(mission) if world is None else world
     certificate = proven(path, world, requirements)
     plan.check(
         "clearance [m]", plan.number("certificate", "clearance_m"), certificate.clearance,

@@ -116,7 +116,10 @@ def test_the_command_line_plans_and_drives_it(tmp_path: Path) -> None:
     done = CliRunner().invoke(cli, ["run", str(file), "--out", str(tmp_path / "out")])
     assert done.exit_code == 0, done.output
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {"a", "b", "c", "fleet.json", "fleet.png", "run.json", "run.png", "timing.json"}
+    assert names == {
+        "a", "b", "c", "courses.npz", "fleet.json", "fleet.png", "planned-fleet.yaml", "run.json",
+        "run.png", "timing.json",
+    }  # fmt: skip
     plan = json.loads((tmp_path / "out" / "a" / "plan.json").read_text())
     assert len(plan["path"]["spans"][0][0]) == 3
     checked = CliRunner().invoke(cli, ["check", str(file)])

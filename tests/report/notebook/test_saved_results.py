@@ -34,13 +34,14 @@ PAIR = vs.Fleet.model_validate(
     }
 )
 PLAN, FLOWN, FLEET_PLAN = vs.plan(MISSION), vs.plan(FLIGHT), vs.plan_fleet(PAIR)
+FLEET_FILES = {"fleet.json", "fleet.png", "courses.npz", "planned-fleet.yaml"}
 PLAN_FILES = {"plan.json", "path.csv", "plan.png", "planned-mission.yaml"}
 SAVED: dict[str, tuple[Any, set[str]]] = {
     "plan": (PLAN, PLAN_FILES),
     "flight plan": (FLOWN, PLAN_FILES),
     "run": (vs.simulate(MISSION, plan=PLAN), PLAN_FILES | {"run.json", "run.csv", "run.png"}),
     "flight": (vs.fly(FLOWN), PLAN_FILES | {"run.json", "run.csv", "run.png"}),
-    "fleet plan": (FLEET_PLAN, {"fleet.json", "fleet.png", "a", "b"}),
+    "fleet plan": (FLEET_PLAN, FLEET_FILES | {"a", "b"}),
     "fleet run": (vs.simulate_fleet(PAIR, plan=FLEET_PLAN), {"run.json"}),
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Final
@@ -10,11 +11,18 @@ from typing import Final
 from viaspline.errors import MissionWarning, OutputError
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.saved.load_fleet_plan import PLANNED_FLEET_NAME
 from viaspline.handed_in import check_kind
+from viaspline.mission.fleet.fleet import Fleet
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.presentable.upper_doors import opened, opened_for
-from viaspline.report.fleet_results import check_robot_folders, fleet_contents, write_robots
+from viaspline.report.fleet_results import (
+    check_robot_folders,
+    fleet_contents,
+    planned_fleet_contents,
+    write_robots,
+)
 from viaspline.report.fleet_run_json import fleet_run_json
 from viaspline.report.result_files import ResultFolder
 from viaspline.report.results import (
@@ -114,7 +122,8 @@ def spatial_plan_files(plan: SpatialPlan, folder: Path, name: str | None) -> lis
 def fleet_plan_files(plan: FleetPlan, folder: Path, name: str | None) -> list[Path]:
     """Those of ``viaspline plan`` but for the wall clock's, with a folder for each robot."""
     check_robot_folders(folder, (one.name for one in plan.fleet.members))
-    files = _written(folder, fleet_contents(plan, name or FLEET))
+    contents = fleet_contents(plan, name or FLEET)
+    files = _written(folder, contents | _fleet_in(folder, plan.fleet))
     return files + write_robots(plan, folder, lambda share: None)
 
 
@@ -139,14 +148,27 @@ def fleet_run_files(run: FleetRun, folder: Path, name: str | None) -> list[Path]
 
 def _mission_in(folder: Path, mission: Mission) -> Contents:
     """The mission as it was planned; a map that was made in memory can't be in a file."""
+    remedy = "keep the mission, and give it to load_plan"
+    return _beside(folder / MISSION_FILE, lambda: mission_contents(mission, folder), remedy)
+
+
+def _fleet_in(folder: Path, fleet: Fleet) -> Contents:
+    """The fleet that was planned; what was made in memory can't be in a file."""
+    remedy = "keep the fleet, and give it to load_fleet_plan"
+    return _beside(
+        folder / PLANNED_FLEET_NAME, lambda: planned_fleet_contents(fleet, folder), remedy
+    )
+
+
+def _beside(file: Path, contents: Callable[[], Contents], remedy: str) -> Contents:
+    """What stands beside a plan to read it again; none, with a warning, if it can't be written."""
     try:
-        return mission_contents(mission, folder)
+        return contents()
     except OutputError as error:
-        stale = folder / MISSION_FILE
-        remedy = "keep the mission, and give it to load_plan"
-        warnings.warn(f"{stale} isn't written: {error}; {remedy}", MissionWarning, stacklevel=5)
+        words = f"{file} isn't written: {error}; {remedy}"
+        warnings.warn(words, MissionWarning, stacklevel=6)
         with suppress(OSError):
-            stale.unlink(missing_ok=True)  # that of an earlier plan isn't this one's
+            file.unlink(missing_ok=True)  # that of an earlier plan isn't this one's
         return {}
 
 

@@ -1,0 +1,117 @@
+"""The plans of a fleet's robots, read and proven again one by one.
+
+Tested through ``fleet/saved/test_load_fleet_plan``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from viaspline.errors import SavedPlanError
+from viaspline.fleet.among_moving import proven_among
+from viaspline.fleet.saved.fleet_file import FleetFile
+from viaspline.fleet.still_world import without_motion
+from viaspline.mission.fleet.fleet import Fleet, FleetMember
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan
+from viaspline.planning.routing.visit_order import ordered
+from viaspline.saved_plans.law_within_limits import check_moving_proof
+from viaspline.saved_plans.plan_file import PlanFile
+from viaspline.saved_plans.plan_in_space import plan_in_space
+from viaspline.saved_plans.planar_plan import planar_plan
+from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.world.world import World
+
+
+@dataclass(frozen=True)
+class SavedRobots:
+    """The robots of a fleet that was saved.
+
+    Attributes:
+        fleet: What was asked for.
+        told: Its ``fleet.json``.
+    """
+
+    fleet: Fleet
+    told: FleetFile
+
+    def plans(self) -> dict[str, Plan | SpatialPlan]:
+        """The plans of those that are served, by name, in the order of the fleet.
+
+        Raises:
+            MissionError: A file isn't there or can't be read.
+            SavedPlanError: One is no plan of its robot, or says what isn't so.
+        """
+        return dict(self._each())
+
+    def _each(self) -> Iterator[tuple[str, Plan | SpatialPlan]]:
+        still = without_motion(self.fleet)
+        shared = None if still.is_spatial else World.known(still.members[0].mission)
+        for member in still.members:
+            path = self.told.plan_of(member.name)
+            if path is None:
+                continue
+            found = self._plan(member, PlanFile.read(path), shared)
+            law = found.trajectory
+            self.told.check_robot(
+                member.name, length_m=found.path.length, departs_s=law.start_time,
+                arrives_s=law.end_time,
+            )  # fmt: skip
+            yield member.name, found
+
+    def _plan(
+        self, member: FleetMember, file: PlanFile, shared: World | None
+    ) -> Plan | SpatialPlan:
+        """The plan of one robot.
+
+        Args:
+            member: The robot, in a world without what moves.
+            file: Its plan.
+            shared: That world, packed; None in space.
+        """
+        if shared is None:
+            return plan_in_space(file, member.mission)
+        asked = member.mission
+        world = shared if asked.route.corridor is None else World.known(asked)
+        mission = self._as_planned(member, file, world)
+        if asked.route.corridor is not None and mission.route.via != asked.route.via:
+            world = World.known(mission)
+        found = planar_plan(file, mission, world)
+        if not self.fleet.world.moving:
+            return found
+        among = proven_among(self.fleet, found)
+        assert among.moving_certificate is not None  # it was just proven
+        check_moving_proof(file, among.moving_certificate)
+        return among
+
+    def _as_planned(self, member: FleetMember, file: PlanFile, world: World) -> Mission:
+        """The mission of a robot as its path was laid: its order, tension and laps are settled."""
+        mission = ordered(member.mission, world)
+        if mission.spline.tension == "auto":
+            said = file.numbers("mission", "tension").tolist()
+            tension = tuple(said) if isinstance(said, list) else said
+            spline = mission.spline.model_copy(update={"tension": tension, "slack": None})
+            mission = mission.model_copy(update={"spline": spline})
+        if not mission.route.is_patrol:
+            return mission
+        route = mission.route.model_copy(update={"laps": self.told.laps(member.name)})
+        return mission.model_copy(update={"route": route})
+
+
+def fleet_beside(file: Path, name: str) -> Path:
+    """The file of the fleet that stands beside its plan.
+
+    Args:
+        file: ``fleet.json``.
+        name: What it is called.
+
+    Raises:
+        SavedPlanError: It doesn't.
+    """
+    beside = file.with_name(name)
+    if not beside.exists():
+        problem = f"there is no {name} beside it"
+        raise SavedPlanError(file, f"{problem}; give load_fleet_plan the fleet of the plan")
+    return beside
