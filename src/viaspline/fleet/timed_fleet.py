@@ -246,13 +246,9 @@ class TimedFleet:
 
     def plans(self) -> dict[str, AnyPlan]:
         """The plans of those that are timed, with their laws by the clock of the fleet, by name."""
-        ways, laws = self.ways, self.timing.laws
         return {
-            member.name: replace(
-                plan,
-                trajectory=timed_trajectory(plan.trajectory, ways.courses, ways.rides, laws, k),
-            )
-            for k, (member, plan) in enumerate(zip(ways.members, ways.plans, strict=True))
+            member.name: replace(plan, trajectory=self._trajectory(k))
+            for k, (member, plan) in enumerate(zip(self.ways.members, self.ways.plans, strict=True))
             if k not in self.timing.blocked
         }
 
@@ -260,6 +256,21 @@ class TimedFleet:
         """As ``plans``, of a fleet in the plane."""
         plans = self.plans()
         return dict(zip(plans, planar_plans(tuple(plans.values())), strict=True))
+
+    def _trajectory(self, robot: int) -> Trajectory:
+        """The time law of a robot, by the clock of the fleet.
+
+        One that keeps its pace changes its acceleration between nodes as well: where its law is
+        settled, it is the very one.
+        """
+        ways, laws = self.ways, self.timing.laws
+        settled = ways.settled.get(ways.courses.names[robot])
+        if settled is not None and ways.rides.packed.keeps_pace[robot]:
+            depart = float(ways.rides.packed.depart[robot])
+            waits = settled.start_time - depart
+            return settled.delayed(-waits).waiting(0.0, waits) if waits > 0.0 else settled
+        static = ways.plans[robot].trajectory
+        return timed_trajectory(static, ways.courses, ways.rides, laws, robot)
 
     def past_standing_ones(self, left_out: Collection[int] = ()) -> TimedFleet:
         """With those that could not be timed standing at their starts, in the way of others.

@@ -168,6 +168,22 @@ def test_improving_leaves_patrols_as_they_are() -> None:
     comes_again(plan)
 
 
+def test_the_law_of_a_patrol_with_a_limit_of_its_jerk_keeps_that_limit() -> None:
+    kind = {"robots": {"soft": {"max_jerk_mps3": 0.5}}}
+    robot = patrol([0, 0], [20, 0], [20, 20], robot="soft", depart_s=3, name="p")
+    plan = plan_fleet(Fleet.model_validate({**kind, "fleet": [robot]}))
+    law = plan.plans["p"].trajectory
+    times = np.arange(law.start_time, law.end_time, 0.05)
+    along, speeds, _ = law.state_at(times)
+    assert law.start_time == 3.0
+    assert np.abs(np.diff(along) / 0.05 - 0.5 * (speeds[1:] + speeds[:-1])).max() < 1e-3
+    rises = np.diff(speeds) / 0.05
+    assert np.abs(rises).max() <= 1.0 + 1e-6
+    assert np.abs(np.diff(rises)).max() / 0.05 <= 0.5 * 1.1
+    holds_for_ever(plan)
+    comes_again(plan)
+
+
 def test_plans_hold_as_many_periods_as_are_asked_for() -> None:
     asked = fleet_of(patrol([0, 0], [20, 0]), patrol([10, 9], [10, -20]))
     plan = plan_fleet(asked, periods=5)

@@ -12,6 +12,7 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.courses import AnyPlan
 from viaspline.kernels.arrays import Floats
 from viaspline.machine.machine_limits import limits_of
+from viaspline.mission.model import Mission
 from viaspline.planning.plan_drive import repeated
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_request import spatial_problem_of
@@ -58,8 +59,18 @@ def driven_laps(lap: AnyPlan, laps: int) -> AnyPlan:
         airborne = (0.0, path.length)
         return replace(lap, mission=mission, path=path, airborne=airborne, yaw=yaw, trajectory=law)
     limits = limits_of(asked.robot)
-    law = retime(path, limits, _halting(stations(path, asked.robot), path, laps), zones=zones)
+    law = retime(path, limits, stops_on_laps(path, mission), zones=zones)
     return replace(lap, mission=mission, path=path, trajectory=law)
+
+
+def stops_on_laps(path: Path, mission: Mission) -> list[Station]:
+    """Where a patrol in the plane stops: at its stations, and at its start after each lap.
+
+    Args:
+        path: All of its laps.
+        mission: With so many laps.
+    """
+    return _halting(stations(path, mission.robot), path, mission.route.laps)
 
 
 def _halting(stops: Iterable[Station], path: Path, laps: int) -> list[Station]:

@@ -17,17 +17,20 @@ from viaspline.bounded_file import FileKind, read_bytes
 from viaspline.errors import SavedPlanError
 from viaspline.fleet.courses import FleetCourses, courses_along, fleet_path
 from viaspline.fleet.fleet_laws import static_laws
+from viaspline.fleet.patrols.driven_laps import on_nodes, stops_on_laps
 from viaspline.fleet.relaid_fleet import driven_alone
 from viaspline.fleet.saved.course_record import CourseRecord
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import standing_laws
 from viaspline.kernels.arrays import Floats
+from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 from viaspline.saved_plans.law_within_limits import PROVEN_OFF_M
 from viaspline.saved_plans.plan_file import REMEDY
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.timing.retime_in_space import retime_in_space
+from viaspline.trajectory.retime import retime
 
 COURSE_FILE: Final = FileKind("courses.npz", 2_000_000_000, "plan the fleet again")
 SAME: Final = 1e-6
@@ -102,7 +105,7 @@ class SavedLaws:
     def _check_law(self, robot: int, plan: Plan | SpatialPlan, fresh: FleetCourses) -> None:
         """See that the law at the nodes is that of the robot's plan."""
         nodes, laws = self._nodes(robot), self.record.laws.packed
-        said, name = static_laws(fresh, [plan.trajectory]).packed, fresh.names[0]
+        said, name = static_laws(fresh, [_on_nodes(plan, fresh).trajectory]).packed, fresh.names[0]
         leaves = bool(self.record.rides.packed.vanishes[robot])
         if leaves:
             said.leave[-1] = said.arrive[-1]
@@ -116,7 +119,7 @@ class SavedLaws:
         self, robot: int, member: FleetMember, plan: Plan | SpatialPlan, fresh: FleetCourses
     ) -> None:
         """See that a robot alone isn't faster than it can be, and can do what is said of it."""
-        found = rides_of([member], [_alone(plan)], fresh)
+        found = rides_of([member], [_on_nodes(_alone(member, plan), fresh)], fresh)
         packed, own, nodes = self.record.rides.packed, found.packed, self._nodes(robot)
         same = all(
             getattr(packed, one)[robot] == getattr(own, one)[0]
@@ -154,10 +157,20 @@ def _near(one: Floats, other: Floats) -> bool:
     return np.allclose(one, other, rtol=0.0, atol=SAME)
 
 
-def _alone(plan: Plan | SpatialPlan) -> Plan | SpatialPlan:
+def _on_nodes(plan: Plan | SpatialPlan, course: FleetCourses) -> Plan | SpatialPlan:
+    """A plan whose law changes at nodes of its course alone, as it does but for rounding."""
+    return replace(plan, trajectory=on_nodes(plan.trajectory, course.packed.distance))
+
+
+def _alone(member: FleetMember, plan: Plan | SpatialPlan) -> Plan | SpatialPlan:
     """A plan with the law that its robot would drive if it were alone."""
-    if isinstance(plan, Plan):
+    zones = plan.mission.world.speed_zones
+    if isinstance(plan, SpatialPlan):
+        stops = plan.trajectory.stations
+        law = retime_in_space(plan.path, plan.limits, stops, plan.yaw, zones=zones)
+    elif member.mission.route.is_patrol:
+        at_rest, limits = stops_on_laps(plan.path, plan.mission), limits_of(plan.mission.robot)
+        law = retime(plan.path, limits, at_rest, zones=zones)
+    else:
         return driven_alone(plan)
-    stops, zones = plan.trajectory.stations, plan.mission.world.speed_zones
-    law = retime_in_space(plan.path, plan.limits, stops, plan.yaw, zones=zones)
     return replace(plan, trajectory=law)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from viaspline.errors import SavedPlanError
 from viaspline.fleet.among_moving import proven_among
+from viaspline.fleet.patrols.driven_laps import stops_on_laps
 from viaspline.fleet.saved.fleet_file import FleetFile
 from viaspline.fleet.still_world import without_motion
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
@@ -78,7 +79,10 @@ class SavedRobots:
         mission = self._as_planned(member, file, world)
         if asked.route.corridor is not None and mission.route.via != asked.route.via:
             world = World.known(mission)
-        found = planar_plan(file, mission, world)
+        if asked.route.is_patrol:
+            found = planar_plan(file, mission, world, stops_on_laps)
+        else:
+            found = planar_plan(file, mission, world)
         if not self.fleet.world.moving:
             return found
         among = proven_among(self.fleet, found)

@@ -57,7 +57,8 @@ def rides_of(
     ends = first[1:] - 1
     stays = laws.leave - laws.arrive
     stays[ends] = 0.0
-    lasts = np.append(laws.arrive[1:] - laws.leave[:-1], 0.0)
+    lasts = np.zeros_like(stays)
+    lasts[:-1] = laws.arrive[1:] - laws.leave[:-1]
     lasts[ends] = 0.0
     depart = np.array([member.mission.route.depart_s for member in members], float)
     later = np.repeat(depart - laws.arrive[first[:-1]], np.diff(first))
