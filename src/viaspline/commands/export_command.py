@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viaspline.bounded_file import is_folder
+from viaspline.bounded_file import is_folder, is_there
 from viaspline.commands.command_steps import load_asked, progress_bar, result_folder
 from viaspline.report.terminal_lines import say
 
@@ -144,8 +144,8 @@ def _loaded(given: Path, watch: ProgressBar) -> Plan | SpatialPlan | FleetPlan:
     from viaspline.saved_plans.load_plan import FLEET_NAME, PLAN_NAME
 
     with watch.stage("load", "proving the plan again"):
-        of_fleet = given.name == FLEET_NAME or (given / FLEET_NAME).exists()
-        if of_fleet and not (given / PLAN_NAME).exists():
+        of_fleet = given.name == FLEET_NAME or is_there(given / FLEET_NAME)
+        if of_fleet and not is_there(given / PLAN_NAME):
             from viaspline.fleet.saved.load_fleet_plan import load_fleet_plan
 
             return load_fleet_plan(given)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.errors import GeometryError, PlanningError
+from viaspline.fleet.execution.ways_from_rest import rest_of_route
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.route_spec import Route
 
@@ -306,3 +307,14 @@ def test_whoever_dies_joins_or_is_sent_elsewhere_the_others_arrive_apart(seed: i
     assert arrived == late
     assert has_no_way <= set(drive.nav.blocked)
     assert drive.nearest >= APART_M - 1e-6
+
+
+def test_what_is_left_of_several_laps_goes_through_the_start_between_them() -> None:
+    route = {"start": [0, 0], "via": [[20, 0], [20, 20]], "closed": True, "laps": 3}
+    mission = vs.Mission.model_validate({"route": route})
+    path = vs.plan(mission).path
+    left = rest_of_route(mission, path, path.length / 3.0 + 1.0)
+    assert [via.at for via in left.via] == [(20, 0), (20, 20), (0, 0), (20, 0), (20, 20)]
+    assert left.goal is not None
+    assert left.goal.at == (0, 0)
+    assert not left.closed

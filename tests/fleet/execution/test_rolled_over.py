@@ -136,3 +136,45 @@ def test_a_patrol_that_is_taken_out_does_not_hold_the_others_up(plan: FleetPlan,
         speed = commands[left].speed
         come = max(come, commands[left].distance)
     assert come > plan.plans[left].path.length
+
+    for time in np.arange(0.0, 6.0 * PATROLS.patrols.period, STEP_S):
+        commands, nav = nav.step([ProgressReport("r0", time, come, speed)], float(time))
+        speed = commands["r0"].speed
+        come = max(come, commands["r0"].distance)
+    assert come > PATROLS.plans["r0"].path.length
+
+
+def test_a_period_begins_anew_where_laps_are_cut_into_cells_in_two_ways() -> None:
+    """The crossings of two laps then end some centimetres beside each other."""
+    slow = {"radius_m": 0.6, "clearance_m": 0.1, "max_speed_mps": 0.6, "max_accel_mps2": 0.3}
+    swift = {"radius_m": 0.25, "clearance_m": 0.05, "max_speed_mps": 3.0}
+    way = {"start": [22.14, 3.36], "via": [[15.18, 10.79], [11.15, 13.71]], "goal": [9.22, 9.56]}
+    round_way = patrol([21.32, 0.92], [9.8, 6.16], [18.1, 22.69], [13.95, 8.64])
+    members = [{"name": "a", "robot": "slow", "route": way}, {"name": "p", "robot": "swift"}]
+    plan = plan_fleet(
+        Fleet.model_validate(
+            {
+                "separation_m": 0.2,
+                "robots": {"slow": slow, "swift": swift},
+                "fleet": [members[0], {**members[1], **round_way}],
+            }
+        )
+    )
+    assert plan.patrols is not None
+    nav, come, held = FleetNavigator(plan, warm=False), {"a": 0.0, "p": 0.0}, dict[str, float]()
+    length = plan.plans["a"].path.length
+    for time in np.arange(0.0, plan.patrols.repeats_from + 4.0 * plan.patrols.period, 0.5):
+        reports = [
+            ProgressReport(
+                name, time, at, 0.0, arrived=name == "a" and at >= length - 1e-9,
+                holds=held.get(name), heard=time - 0.5 if held else None,
+            )
+            for name, at in come.items()
+        ]  # fmt: skip
+        commands, nav = nav.step(reports, time)
+        for name, command in commands.items():
+            held[name] = command.granted
+            gone = 0.5 * {"a": 0.4, "p": 1.5}[name] if time > 2.0 else 0.0
+            come[name] = min(command.granted, come[name] + gone)
+    assert come["a"] == length
+    assert come["p"] > plan.plans["p"].path.length / plan.plans["p"].mission.route.laps * 2.5

@@ -121,6 +121,29 @@ def _same_crossings(before: DrivenFleet, after: DrivenFleet, kept: Ints) -> dict
     return found
 
 
+def let_in_too_early(orders: FleetOrders, promised: Floats, progress: Floats) -> dict[int, int]:
+    """Crossings into which the robot that is to pass second has been let already, by which one.
+
+    Args:
+        orders: Who passes first where.
+        promised: The farthest that each robot may take to be granted [m], (n,).
+        progress: How far each has come at least [m], (n,).
+    """
+    packed = orders.packed
+    robot = np.repeat(np.arange(len(orders.names)), np.diff(packed.first))
+    bars = _passed_too_early(orders, robot, promised, progress)
+    return dict(zip(packed.crossing[bars].tolist(), robot[bars].tolist(), strict=True))
+
+
+def _passed_too_early(orders: FleetOrders, robot: Ints, promised: Floats, progress: Floats) -> Ints:
+    """The bars beyond which robots have been let before those that are to pass first."""
+    packed = orders.packed
+    counts = orders.leaders[packed.crossing] == packed.other
+    is_here = np.isfinite(progress)[robot]
+    late = counts & is_here & (promised[robot] > packed.place + SAME_M)
+    return np.flatnonzero(late & (progress[packed.other] < packed.passed))
+
+
 def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> None:
     """Refuse a leader of a crossing into which the other robot has been let already.
 
@@ -135,12 +158,7 @@ def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> Non
     """
     packed = orders.packed
     robot = np.repeat(np.arange(len(orders.names)), np.diff(packed.first))
-    counts = orders.leaders[packed.crossing] == packed.other
-    is_here = np.isfinite(progress)[robot]
-    late = counts & is_here & (promised[robot] > packed.place + SAME_M)
-    wrong = late & (progress[packed.other] < packed.passed)
-    if wrong.any():
-        b = int(np.flatnonzero(wrong)[0])
+    for b in _passed_too_early(orders, robot, promised, progress)[:1].tolist():
         first, second = orders.names[packed.other[b]], orders.names[robot[b]]
         raise GeometryError(
             f"{first} is to pass before {second}, which may have gone beyond "

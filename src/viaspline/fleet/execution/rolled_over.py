@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from viaspline.fleet.execution.carried_over import check_let_in
+from viaspline.fleet.execution.carried_over import let_in_too_early
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.dwells import FleetStations
 from viaspline.fleet.execution.fleet_orders import orders_led
@@ -41,7 +41,7 @@ def rolled_over(
         stations: Its stations.
 
     Raises:
-        GeometryError: The orders that hold have a cycle, or let two robots in at once.
+        GeometryError: The orders that hold have a cycle.
     """
     rounds = fleet.rounds
     if rounds is None or not _is_over(state, rounds):
@@ -59,7 +59,15 @@ def rolled_over(
             leaders[c] = leader
             by_second[c] = bool(state.orders.by_second[was]) if is_planned else True
     come = state.packed.progress - shift
-    orders = orders_led(fleet, leaders, by_second, state.orders.packed.short, come)
+    short, promised = state.orders.packed.short, state.packed.promised - shift
+    orders = orders_led(fleet, leaders, by_second, short, come)
+    let_in = let_in_too_early(orders, promised, come)
+    if let_in:  # beyond where the crossing begins in this lap
+        for c, robot in let_in.items():
+            leaders[c], by_second[c] = robot, True
+        orders = orders_led(fleet, leaders, by_second, short, come)
+        if let_in_too_early(orders, promised, come):
+            return state  # both are in it by the wider cells of this lap: later, then
     new = FleetProgressState.at_start(fleet, orders)
     packed = new.packed
     for now, was_there in zip(packed[1:], state.packed[1:], strict=True):
@@ -71,7 +79,6 @@ def rolled_over(
     packed.head[:] = orders.packed.first[:-1]
     packed.recall[:] = -1
     packed.recall_place[:] = np.inf
-    check_let_in(orders, packed.promised, packed.progress)
     open_bars(orders.packed, packed)
     return replace(
         new,

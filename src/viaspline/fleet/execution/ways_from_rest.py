@@ -24,7 +24,7 @@ from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces, r
 from viaspline.handed_in import check_kind
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.model import Mission
-from viaspline.mission.route_spec import EndPoint, Route
+from viaspline.mission.route_spec import EndPoint, Route, ViaPoint
 from viaspline.planner import Plan
 from viaspline.whole_plan import in_order, whole_plan
 
@@ -94,7 +94,7 @@ def rest_of_route(mission: Mission, path: Path, place: float) -> Route:
     points = [point for _, point in route.points()]
     along = path.via_distances.tolist()
     left = [
-        points[via.index]
+        _passed_through(points[via.index % len(points)])
         for via, at in zip(path.vias, along, strict=True)
         if via.kind == "user" and via.index is not None and place + SAME_M < at < path.length
     ]
@@ -104,6 +104,11 @@ def rest_of_route(mission: Mission, path: Path, place: float) -> Route:
         start=_end_at(mission, path, place), via=tuple(left), goal=end, optimise=route.optimise,
         detours=route.detours,
     )  # fmt: skip
+
+
+def _passed_through(point: ViaPoint | EndPoint) -> ViaPoint:
+    """A point of a route as one on the way: the start of a round is passed between its laps."""
+    return point if isinstance(point, ViaPoint) else ViaPoint(at=point.at, name=point.name)
 
 
 def from_where_it_stands(mission: Mission, route: Route, path: Path, place: float) -> Mission:

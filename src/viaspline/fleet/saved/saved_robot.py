@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from viaspline.bounded_file import is_there
 from viaspline.errors import SavedPlanError
 from viaspline.fleet.among_moving import proven_among
 from viaspline.fleet.patrols.driven_laps import stops_on_laps
@@ -115,7 +116,7 @@ def fleet_beside(file: Path, name: str) -> Path:
         SavedPlanError: It doesn't.
     """
     beside = file.with_name(name)
-    if not beside.exists():
+    if not is_there(beside):
         problem = f"there is no {name} beside it"
         raise SavedPlanError(file, f"{problem}; give load_fleet_plan the fleet of the plan")
     return beside
