@@ -309,6 +309,7 @@ CHANGES: list[tuple[str, str, Callable[[Any], None], str]] = [
     ("patrols", "fleet.json", nudge(-9.0, "patrols", "repeats_from_s"), "hasn't arrived|before"),
     ("patrols", "fleet.json", nudge(2e3, "patrols", "planned_until_s"), "where it was before"),
     ("patrols", "fleet.json", nudge(-1, "patrols", "robots", 0, "laps_planned"), "faster|before"),
+    ("flights", "fleet.json", put({}, "patrols"), "aren't loaded again"),
     ("flights", "courses.npz", sooner, "isn't that of its plan"),
 ]  # fmt: skip
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from viaspline.bounded_file import is_folder
+from viaspline.errors import SavedPlanError
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import FleetCertificate, certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
@@ -24,6 +25,10 @@ from viaspline.saved_plans.load_plan import FLEET_NAME
 
 PLANNED_FLEET_NAME: Final = "planned-fleet.yaml"
 COURSES_NAME: Final = "courses.npz"
+NOT_IN_SPACE: Final = (
+    "holds the plan of flights past what moves or of patrols, which aren't loaded again; call "
+    "plan_fleet with the fleet's file, which makes the same plan again"
+)
 
 
 def load_fleet_plan(folder: str | Path, fleet: AskedFleet | None = None) -> FleetPlan:
@@ -33,7 +38,8 @@ def load_fleet_plan(folder: str | Path, fleet: AskedFleet | None = None) -> Flee
     ``load_plan`` does it, and all robots are proven apart again, over continuous time: courses and
     laws at their nodes are held against the paths and laws of the robots' plans, crossings and who
     passes first are found again, and that patrols come again. So it equals what was saved, or is
-    refused. Why a robot isn't served is a record, and taken as it stands.
+    refused. Flights past what moves and flights that never end aren't loaded, which is told. Why a
+    robot isn't served is a record, and taken as it stands.
 
     Args:
         folder: With ``fleet.json``, or that file itself.
@@ -63,6 +69,8 @@ def load_fleet_plan(folder: str | Path, fleet: AskedFleet | None = None) -> Flee
         file = file / FLEET_NAME
     asked = asked_fleet(fleet_beside(file, PLANNED_FLEET_NAME) if fleet is None else fleet)
     told = FleetFile.read(file, asked)
+    if asked.is_spatial and (asked.world.moving or "patrols" in told.file.data):
+        raise SavedPlanError(file, NOT_IN_SPACE)
     plans = SavedRobots(asked, told).plans()
     laws = SavedLaws.read(file.with_name(COURSES_NAME))
     laws.check(asked, plans)
