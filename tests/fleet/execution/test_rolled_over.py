@@ -137,12 +137,6 @@ def test_a_patrol_that_is_taken_out_does_not_hold_the_others_up(plan: FleetPlan,
         come = max(come, commands[left].distance)
     assert come > plan.plans[left].path.length
 
-    for time in np.arange(0.0, 6.0 * PATROLS.patrols.period, STEP_S):
-        commands, nav = nav.step([ProgressReport("r0", time, come, speed)], float(time))
-        speed = commands["r0"].speed
-        come = max(come, commands["r0"].distance)
-    assert come > PATROLS.plans["r0"].path.length
-
 
 def test_a_period_begins_anew_where_laps_are_cut_into_cells_in_two_ways() -> None:
     """The crossings of two laps then end some centimetres beside each other."""
