@@ -16,6 +16,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
+from viaspline.trajectory.slow_zones import Slow
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -66,6 +67,20 @@ def test_a_slow_zone_is_within_a_percent_of_its_closed_form() -> None:
     rough = retime(line(40.0), Limits(max_speed=2, max_accel=1), zones=[zone])
     assert law.duration > rough.duration
     assert law.speed_at(np.linspace(15, 25, 99)).max() <= 0.5 * (1 + 1e-9)
+
+
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=25)
+def test_no_slow_part_is_driven_faster_than_it_allows_up_to_its_very_ends(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    path = CardinalSpline(np.cumsum(random.uniform(-3, 6, (5, 2)), axis=0))
+    limits = Limits(max_speed=2, max_accel=1, max_jerk=random.uniform(0.3, 3))
+    a, b, c, d = np.sort(random.uniform(1, path.length - 1, 4)).tolist()
+    slow = [Slow(a, b, 0.5), Slow(b, c, random.uniform(0.3, 1.8)), Slow(c + 0.3 * (d - c), d, 1.0)]
+    law = retime(path, limits, slow=slow)
+    for part in slow:
+        within = np.linspace(part.start, part.end, 2001)[1:-1]
+        assert law.speed_at(within).max() <= part.speed * (1 + 1e-9)
 
 
 LIMITS = {

@@ -18,6 +18,7 @@ from viaspline.trajectory.jerk_limited import JerkLimitedMotion, smoothest, smoo
 from viaspline.trajectory.limited_path import LimitedCubicPath, LimitedPath
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.motion_pieces import time_into
+from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
 
 QUICKEST_S = 0.02
@@ -35,6 +36,9 @@ LEAST_STRETCHES = 4
 
 STRETCH_GROWTH = 1.25
 """Beside a rest every stretch is longer than the one before it by this."""
+
+HAIR_RATIO = 0.01
+"""No end of a slow part is nearer to a node than this, of the distance between nodes."""
 
 MAX_EXCESS = 0.01
 """By what part of it a limit other than the jerk is widened at most where a robot is under way."""
@@ -194,12 +198,13 @@ class Section:
         begin = moving if low == stage.start and stage.first > 0.0 else rest
         slip = 1e-12 * (1.0 + high)
         marks = np.union1d(_marks(cells.along, low, high, begin, rest), also)
+        at_once = 1e-9 * (1.0 + high)
+        marks = _with_edges(marks, cells.along, stage.slow, at_once)
         line, cell, parts = time_grid.divide(cells.along, marks, slip)
         tops = np.full(cell.size, cell_size.square)
-        middles = 0.5 * (line[1:] + line[:-1])
         for slow in stage.slow:
-            within = (middles > slow.start) & (middles < slow.end)
-            tops[within] = np.minimum(tops[within], slow.speed**2)
+            meets = (line[1:] > slow.start + at_once) & (line[:-1] < slow.end - at_once)
+            tops[meets] = np.minimum(tops[meets], slow.speed**2)
         caps = jump_caps(cells, limits, line, cell_size)
         if high >= stage.end and stage.last > 0.0:
             caps[-1] = min(caps[-1], stage.last**2)
@@ -227,6 +232,33 @@ def _marks(along: Floats, low: float, high: float, first: float, last: float) ->
     apart = 0.05 * np.minimum(along[at] - along[at - 1], gap)
     far = (along[at] - free > apart) & (free - along[at - 1] > apart)
     return np.unique(np.concatenate(([low], free[far], [high])))
+
+
+def _with_edges(marks: Floats, along: Floats, slow: Sequence[Slow], slip: float) -> Floats:
+    """Marks, and where slow parts begin and end; a little more of them is slow beside a node [m].
+
+    Args:
+        marks: Increasing [m].
+        along: Ends of the cells, which are nodes as well [m].
+        slow: The slow parts.
+        slip: What is nearer to a node than this is at it [m].
+    """
+    if not slow:
+        return marks
+    nodes = np.union1d(along, marks)
+    starts = _between_nodes(nodes, np.array([part.start for part in slow]), slip)
+    ends = -_between_nodes(-nodes[::-1], -np.array([part.end for part in slow]), slip)
+    edges = np.concatenate((starts, ends))
+    return np.union1d(marks, edges[(edges > marks[0]) & (edges < marks[-1])])
+
+
+def _between_nodes(nodes: Floats, starts: Floats, slip: float) -> Floats:
+    """Where slow parts begin, sooner where a node comes at once; none where one has just been."""
+    at = np.searchsorted(nodes, starts).clip(1, nodes.size - 1)
+    before, after = nodes[at - 1], nodes[at]
+    apart = HAIR_RATIO * (after - before)
+    needed = (starts - before > apart) & (after - starts > slip)
+    return np.minimum(starts, after - apart)[needed]
 
 
 def _steps(room: float, first: float) -> Floats:
