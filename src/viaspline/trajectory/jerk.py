@@ -258,7 +258,7 @@ def _between_nodes(nodes: Floats, starts: Floats, slip: float) -> Floats:
     before, after = nodes[at - 1], nodes[at]
     apart = HAIR_RATIO * (after - before)
     needed = (starts - before > apart) & (after - starts > slip)
-    return np.minimum(starts, after - apart)[needed]
+    return np.asarray(np.minimum(starts, after - apart)[needed])
 
 
 def _steps(room: float, first: float) -> Floats:
