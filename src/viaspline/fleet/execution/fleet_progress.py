@@ -136,11 +136,15 @@ class FleetProgressState:
 
     def taken_out(self, robot: int, event: FleetEvent) -> FleetProgressState:
         """A robot has left the world."""
+        return replace(self.without_laps(robot), events=(*self.events, event))
+
+    def without_laps(self, robot: int) -> FleetProgressState:
+        """A robot is in nobody's way any more along the path that it has."""
         state = self.copied(self.time)
         state.packed.progress[robot] = np.inf
         state.packed.fixed[robot] = True
         state.out[robot] = True
-        return replace(state, events=(*self.events, event))
+        return replace(state, events=self.events)
 
     def with_dead(self, robot: int, until: float, event: FleetEvent) -> FleetProgressState:
         """A robot stands for ever between its progress and a place [m].

@@ -10,15 +10,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viaspline.errors import GeometryError, PlanningError
+from viaspline.errors import GaveUpError, GeometryError, PlanningError
 from viaspline.fleet.execution.carried_over import carried_over
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
-from viaspline.fleet.execution.dwells import STANDS_MPS
+from viaspline.fleet.execution.dwells import STANDS_MPS, FleetStations
 from viaspline.fleet.execution.expected_laws import expected_laws
 from viaspline.fleet.execution.fleet_orders import index_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent
 from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
+from viaspline.fleet.execution.rolled_over import rolled_over
 from viaspline.fleet.execution.ways_from_rest import (
     FleetMissions,
     from_where_it_stands,
@@ -135,7 +136,7 @@ class FleetUnderWay:
     def joined(self, member: FleetMember, event: FleetEvent) -> FleetUnderWay:
         """With a robot that begins a path of its own now, in place of one of its name."""
         missions, fleet, state = self.known, self.fleet, self.state
-        out = [name for name, is_out in zip(fleet.names, state.out, strict=True) if is_out]
+        out = [fleet.names[k] for k in np.flatnonzero(state.out).tolist()]
         member = _departing(member, max(member.mission.route.depart_s, self.now))
         rests = rests_now(fleet, state, missions, member.name)
         plan = laid_from_rest(member, fleet.separation, rests, out)
@@ -165,7 +166,26 @@ class FleetUnderWay:
         member = replace(self.known.members[name], mission=mission)
         robot = index_of(self.fleet.names, name)
         place = float(self.state.places[robot] + self.state.driven[robot])
-        return self.joined(member, FleetEvent("re-planned", self.now, name, words, None, place))
+        event = FleetEvent("re-planned", self.now, name, words, None, place)
+        try:
+            return self.joined(member, event)
+        except GaveUpError:
+            if self.fleet.rounds is None or not self.fleet.rounds[robot]:
+                raise
+        return self._without_its_laps(robot).joined(member, event)
+
+    def _without_its_laps(self, robot: int) -> FleetUnderWay:
+        """With patrols counted back as if one that stands, and drives no more laps, weren't there.
+
+        They stand at the end of the laps that are laid out when it hasn't driven its own for long:
+        among what comes after them nobody could be timed.
+        """
+        fleet, state = self.fleet, self.state.without_laps(robot)
+        while (later := rolled_over(state, fleet, FleetStations.of(fleet))) is not state:
+            state = later
+        state = state.copied(state.time)
+        state.out[robot] = False
+        return replace(self, state=replace(state, events=self.state.events))
 
 
 def _departing(member: FleetMember, time: float) -> FleetMember:
