@@ -131,3 +131,49 @@ def test_where_no_cache_can_be_written_kernels_are_compiled_without_one(tmp_path
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert done.stdout.split()[-1] == "None"
+
+
+INTERRUPTED = """
+import ctypes, threading, time
+from typing import NamedTuple
+import numpy as np
+from viaspline.kernels.jit import kernel
+
+class Found(NamedTuple):
+    places: np.ndarray
+    rests: bool
+
+@kernel
+def found(places, begun):
+    begun[0] = 1.0
+    for k in range(200_000_000):
+        places[k % 3] += k ** 0.5
+    return Found(places.copy(), True)
+
+class Stop(BaseException):
+    pass
+
+def work():
+    try:
+        found(np.zeros(3), begun)
+    except Stop:
+        print("stopped")
+
+begun = np.zeros(1)
+found.compile("(f8[:], f8[:])")
+worker = threading.Thread(target=work)
+worker.start()
+while not begun[0]:
+    time.sleep(0.001)
+ctypes.pythonapi.PyThreadState_SetAsyncExc(
+    ctypes.c_ulong(worker.ident), ctypes.py_object(Stop)
+)
+worker.join()
+"""
+
+
+@compiled
+def test_an_interrupt_while_a_kernel_runs_that_gives_a_named_tuple_is_an_exception() -> None:
+    run = [sys.executable, "-c", INTERRUPTED]
+    done = subprocess.run(run, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (0, "stopped\n"), done.stderr

@@ -9,6 +9,9 @@ import numba
 from numba.core import types
 
 from viaspline.kernels.kernel_cache import KernelCache, is_kept
+from viaspline.kernels.named_tuple_boxing import box_named_tuples
+
+box_named_tuples()
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
