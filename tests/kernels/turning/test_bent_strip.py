@@ -31,7 +31,7 @@ def test_no_other_offsets_between_the_bounds_bend_less(seed: int, tension: float
     lower[up], upper[down] = 0.01, -0.01
     fixed = np.zeros(COUNT, np.bool_)
     fixed[[0, -1]] = True
-    moved, prices, turned = bent_strip(places, normals, lower, upper, fixed, tension)
+    moved, prices, turned = bent_strip(places, normals, lower, upper, fixed, False, tension)
     bounds = np.column_stack((lower, upper))
     bounds[fixed] = 0.0
     matrix = costs(tension)
@@ -49,3 +49,26 @@ def test_no_other_offsets_between_the_bounds_bend_less(seed: int, tension: float
     assert moved @ matrix @ moved <= best.fun * (1.0 + 1e-3)
     assert prices[up] > 0.0 > prices[down]
     assert turned == pytest.approx(np.abs(np.diff(moved)).max())
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_round_bends_least_whichever_of_its_places_is_its_first(seed: int) -> None:
+    """The best offsets of a ring between bounds, one place held: by the seam or across it."""
+    random = np.random.default_rng((2, seed))
+    around = np.arange(COUNT) * 2.0 * np.pi / COUNT
+    ring = np.column_stack((np.cos(around), np.sin(around))) * random.uniform(9.0, 11.0, (COUNT, 1))
+    lower, upper = -random.uniform(0.1, 0.5, COUNT), random.uniform(0.1, 0.5, COUNT)
+    held = int(random.integers(3, COUNT - 3))
+
+    def moved(first: int) -> Floats:
+        order = (np.arange(COUNT + 1) + first) % COUNT
+        places = ring[order]
+        fixed = np.isin(order, (held, 0))
+        normals = -places / np.hypot(*places.T)[:, None]
+        found, _, _ = bent_strip(places, normals, lower[order], upper[order], fixed, True, 0.01)
+        back: Floats = np.empty(COUNT)
+        back[order] = found
+        return back
+
+    np.testing.assert_allclose(moved(0), moved(held), atol=2e-3)
+    assert np.abs(moved(0)).max() > 0.05

@@ -19,7 +19,7 @@ def test_a_place_may_go_as_far_as_it_keeps_clear(off: float, aside: float) -> No
     normals = np.tile([0.0, 1.0], (4, 1))
     low, high = np.full(4, -np.inf), np.full(4, np.inf)
     reach, rooms = np.empty(4), np.empty(4)
-    spans = strip_spans(places, normals, np.full((2, 2), np.nan))
+    spans = strip_spans(places, normals, np.full((2, 2), np.nan), False)
     beside, kept = np.full(4, aside), np.ones(4)
     strip_room(world.packed, places, normals, spans, beside, kept, low, high, reach, rooms)
     room = abs(off - aside) - 2.0

@@ -26,10 +26,12 @@ def middles(spans: Floats) -> Floats:
     return found
 
 
-def test_spans_are_those_of_scipy() -> None:
-    at = np.r_[0.0, np.cumsum(np.hypot(*np.diff(PLACES, axis=0).T))]
-    other = CubicSpline(at, PLACES, bc_type="natural")
-    spans = strip_spans(PLACES.copy(), normals(PLACES), FREE)
+@pytest.mark.parametrize("closed", [False, True])
+def test_spans_are_those_of_scipy(closed: bool) -> None:
+    places = np.vstack((PLACES, PLACES[:1])) if closed else PLACES
+    at = np.r_[0.0, np.cumsum(np.hypot(*np.diff(places, axis=0).T))]
+    other = CubicSpline(at, places, bc_type="periodic" if closed else "natural")
+    spans = strip_spans(places.copy(), normals(places), FREE, closed)
     np.testing.assert_allclose(middles(spans), other(0.5 * (at[1:] + at[:-1])), atol=1e-12)
 
 
@@ -44,7 +46,7 @@ def test_given_ends_are_left_straight_in_their_directions(seed: int) -> None:
     angles = headings[[0, -1]] + random.uniform(-0.3, 0.3, 2)
     ends = np.column_stack((np.cos(angles), np.sin(angles)))
     before = places.copy()
-    spans = strip_spans(places, normals(places), ends)
+    spans = strip_spans(places, normals(places), ends, False)
     curve = PiecewiseCubic(spans)
     first, last = curve.domain
     np.testing.assert_allclose(curve.tangent(first), ends[0], atol=1e-12)

@@ -23,14 +23,14 @@ Outline = tuple[tuple[float, float], ...]
 
 
 def reached(
-    outline: Outline | None, places: Floats, world: vs.World = INSIDE
+    outline: Outline | None, places: Floats, world: vs.World = INSIDE, closed: bool = False
 ) -> tuple[Floats, Floats, Floats]:
     """How far to the left and to the right of each place, by the kernel [m]; the curve's spans."""
     body = strip_body(Requirements(radius=0.3, clearance=KEPT, footprint=outline))
-    normals = strip_normals(places)
-    spans = strip_spans(places, normals, np.full((2, 2), np.nan))
+    normals = strip_normals(places, closed)
+    spans = strip_spans(places, normals, np.full((2, 2), np.nan), closed)
     beside, half = np.empty(len(places)), np.empty(len(places))
-    swept_sides(world.packed, body, places, normals, spans, beside, half)
+    swept_sides(world.packed, body, closed, places, normals, spans, beside, half)
     return half - KEPT + beside, half - KEPT - beside, spans
 
 
@@ -54,7 +54,7 @@ def test_a_body_reaches_as_far_as_its_outline_goes(outline: Outline, bend: float
     steps = 0.25 * np.column_stack((np.cos(headings), np.sin(headings)))
     places = np.vstack((np.zeros(2), np.cumsum(steps, axis=0)))
     left, right, spans = reached(outline, places)
-    put, normals = put_down(outline, spans), strip_normals(places)
+    put, normals = put_down(outline, spans), strip_normals(places, False)
     for j in range(10, 51):  # its ends are nowhere near there
         off, normal = put - places[j], normals[j]
         beside = np.abs(off[:, 0] * normal[1] - off[:, 1] * normal[0]) < 3e-3
@@ -69,6 +69,14 @@ def test_on_a_line_a_body_is_as_wide_as_it_is() -> None:
     left, right, _ = reached(KITE, places)
     np.testing.assert_allclose(left[3:-3], 0.6, atol=1e-9)
     np.testing.assert_allclose(right[3:-3], 0.4, atol=1e-9)
+
+
+def test_round_a_circle_a_body_reaches_as_far_everywhere() -> None:
+    angles = np.linspace(0.0, 2.0 * np.pi, 121)
+    places = 5.0 * np.column_stack((np.cos(angles), np.sin(angles)))
+    left, right, _ = reached(TRUCK, places, closed=True)
+    np.testing.assert_allclose(left, 0.5, atol=1e-5)
+    np.testing.assert_allclose(right, np.hypot(5.5, 1.6) - 5.0, atol=1e-4)
 
 
 def test_far_from_everything_a_body_is_the_disc_about_it_and_a_disc_is_one_anywhere() -> None:

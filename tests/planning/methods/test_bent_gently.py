@@ -114,17 +114,34 @@ def test_given_headings_are_kept_straight_and_the_path_between_bends_less(
     assert path.curvature_jumps().max() < 1e-6
 
 
-def test_lanes_stay_as_they_were_and_what_leaves_them_bends_less(
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize("seed", range(4))
+def test_a_round_bends_less_and_goes_on_at_its_seam_without_a_jump(
+    monkeypatch: pytest.MonkeyPatch, seed: int
 ) -> None:
-    ends: dict[str, object] = {"via": [[300, 0], [300, 200]], "goal": [0, 200]}
+    asked = mission(seed, speed=6.0, via=[[50, 20], [100, 0]], goal=None, closed=True)
+    if seed % 2:
+        asked = of_body(asked)
+    turns, plan = without(monkeypatch, asked), vs.plan(asked)
+    path, last = plan.path, float(len(plan.path.spans))
+    assert bending(path.spans)[0] < 0.98 * bending(turns.path.spans)[0]
+    assert plan.trajectory.duration <= 1.004 * turns.trajectory.duration
+    np.testing.assert_allclose(path.tangent(0.0), path.tangent(last), atol=1e-9)
+    assert path.curvature(0.0) == pytest.approx(path.curvature(last), abs=1e-7)
+    assert path.evaluate(last).tolist() == path.evaluate(0.0).tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_lanes_stay_as_they_were_and_what_leaves_them_bends_less(
+    monkeypatch: pytest.MonkeyPatch, closed: bool
+) -> None:
+    ends: dict[str, object] = {"via": [[300, 0], [300, 200]], "goal": None if closed else [0, 200]}
     asked = vs.Mission.model_validate({
         "world": {"known": [
             {"circle": {"center": [150, 1], "radius": 4}},
             {"circle": {"center": [298, 100], "radius": 5}},
         ]},
         "robot": {"radius_m": 0.6, "clearance_m": 0.4, "max_speed_mps": 2, "max_accel_mps2": 1},
-        "route": {"start": [0, 0], "detours": "local"} | ends,
+        "route": {"start": [0, 0], "detours": "local", "closed": closed} | ends,
     })  # fmt: skip
     turns, plan = without(monkeypatch, asked).path, vs.plan(asked).path
     assert bending(plan.spans)[0] < 0.995 * bending(turns.spans)[0]

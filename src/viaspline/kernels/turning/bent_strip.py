@@ -28,16 +28,20 @@ def _wrapped(angle: float) -> float:
 
 @inner
 def _bands(
-    places: Floats, normals: Floats, tension: float, bands: Floats, slopes: Floats
+    places: Floats, normals: Floats, closed: bool, tension: float, bands: Floats, slopes: Floats,
+    seam: Floats,
 ) -> float:  # fmt: skip
     """The cost of a polyline to the second order in offsets of its places along normals.
 
     Args:
         places: [m], (n, 2).
         normals: Unit vectors, (n, 2).
+        closed: Whether it is a round, whose last place is its first.
         tension: What a metre of length is priced at [1/m²].
         bands: The diagonal and the two beside it, (n, 3); filled.
         slopes: (n,); filled.
+        seam: Of a round: how its turn there changes by offsets, times the root of its weight, of
+            the second place and of the last but one; that is no part of the bands, (2,); filled.
 
     Returns:
         The bending [1/m].
@@ -45,6 +49,7 @@ def _bands(
     count = places.shape[0]
     bands[:] = 0.0
     slopes[:] = 0.0
+    seam[:] = 0.0
     bending, heading, length = 0.0, 0.0, 0.0
     back, ahead = 0.0, 0.0  # of the heading of the piece before, by the offsets of its ends
     for j in range(count - 1):
@@ -74,8 +79,28 @@ def _bands(
             bands[j, 0] += each * middle * middle
             bands[j, 1] += each * middle * last
             bands[j + 1, 0] += each * last * last
+        elif closed:
+            bending += _seam(places, normals, here, long, a, slopes, seam)
         heading, length, back, ahead = here, long, b, a
     return bending
+
+
+@inner
+def _seam(
+    places: Floats, normals: Floats, heading: float, step: float, per: float, slopes: Floats,
+    seam: Floats,
+) -> float:  # fmt: skip
+    """The cost of the turn at the seam of a round, by the places beside it; its bending."""
+    j = places.shape[0] - 2
+    dx, dy = places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
+    long = math.hypot(dx, dy)
+    turn = _wrapped(heading - math.atan2(dy, dx))
+    before = (dx * normals[j, 1] - dy * normals[j, 0]) / (long * long)
+    share = 0.5 * (step + long)
+    slopes[1] += 2.0 / share * turn * per
+    slopes[j] += 2.0 / share * turn * before
+    seam[0], seam[1] = math.sqrt(2.0 / share) * per, math.sqrt(2.0 / share) * before
+    return turn * turn / share
 
 
 @inner
@@ -110,9 +135,31 @@ def _solve(bands: Floats, more: Floats, fixed: Flags, right: Floats, work: Float
 
 
 @inner
-def _slopes_at(bands: Floats, slopes: Floats, moved: Floats, step: Floats) -> None:
+def _solve_round(
+    bands: Floats, more: Floats, fixed: Flags, seam: Floats, right: Floats, across: Floats,
+    work: Floats,
+) -> None:  # fmt: skip
+    """Solve it with what the seam of a round adds, by the formula of Sherman and Morrison."""
+    _solve(bands, more, fixed, right, work)
+    if seam[0] == 0.0 and seam[1] == 0.0:
+        return
+    last = right.size - 2
+    across[:] = 0.0
+    across[1], across[last] = seam[0], seam[1]
+    _solve(bands, more, fixed, across, work)
+    far = seam[0] * right[1] + seam[1] * right[last]
+    far /= 1.0 + seam[0] * across[1] + seam[1] * across[last]
+    for j in range(right.size):
+        right[j] -= far * across[j]
+
+
+@inner
+def _slopes_at(
+    bands: Floats, slopes: Floats, seam: Floats, moved: Floats, step: Floats
+) -> None:  # fmt: skip
     """By how much less moving on would cost, for each place, into ``step``."""
     count = moved.size
+    turned = seam[0] * moved[1] + seam[1] * moved[count - 2]
     for j in range(count):
         step[j] = -slopes[j] - bands[j, 0] * moved[j]
         if j > 0:
@@ -123,11 +170,14 @@ def _slopes_at(bands: Floats, slopes: Floats, moved: Floats, step: Floats) -> No
             step[j] -= bands[j, 1] * moved[j + 1]
         if j + 2 < count:
             step[j] -= bands[j, 2] * moved[j + 2]
+    step[1] -= seam[0] * turned
+    step[count - 2] -= seam[1] * turned
 
 
 @kernel
 def bent_strip(
-    places: Floats, normals: Floats, lower: Floats, upper: Floats, fixed: Flags, tension: float
+    places: Floats, normals: Floats, lower: Floats, upper: Floats, fixed: Flags, closed: bool,
+    tension: float,
 ) -> tuple[Floats, Floats, float]:  # fmt: skip
     """Move places along their normals, so that the line through them bends less.
 
@@ -137,6 +187,7 @@ def bent_strip(
         lower: By what they move at least [m], (n,).
         upper: By what they move at most [m], above that, (n,).
         fixed: Which of them stay, the first and the last among them, (n,).
+        closed: Whether it is a round, whose last place is its first.
         tension: What a metre of length is priced at [1/m²].
 
     Returns:
@@ -145,7 +196,8 @@ def bent_strip(
     """
     count = places.shape[0]
     bands, slopes, work = np.empty((count, 3)), np.empty(count), np.empty((count, 3))
-    bending = _bands(places, normals, tension, bands, slopes)
+    seam, across = np.empty(2), np.empty(count)
+    bending = _bands(places, normals, closed, tension, bands, slopes, seam)
     moved, step, more = np.zeros(count), np.empty(count), np.zeros(count)
     low, high = np.zeros(count), np.zeros(count)
     product = FIRST_PRODUCT * max(bending, 1e-12) / count
@@ -157,13 +209,13 @@ def bent_strip(
             low[j], high[j] = product / (moved[j] - lower[j]), product / (upper[j] - moved[j])
     for _ in range(MAX_ROUNDS):
         product *= CENTERED
-        _slopes_at(bands, slopes, moved, step)
+        _slopes_at(bands, slopes, seam, moved, step)
         for j in range(count):
             if not fixed[j]:
                 below, above = moved[j] - lower[j], upper[j] - moved[j]
                 step[j] += product / below - product / above
                 more[j] = low[j] / below + high[j] / above
-        _solve(bands, more, fixed, step, work)
+        _solve_round(bands, more, fixed, seam, step, across, work)
         far, priced = 1.0, 1.0
         for j in range(count):
             if not fixed[j]:

@@ -34,6 +34,7 @@ class StripPlaces(NamedTuple):
     """Places on rays across a path, and what is known of the room on both sides of it.
 
     Attributes:
+        closed: Whether it is a round, whose last place is its first.
         places: [m], (n, 2).
         joints: Which of them are via points, (k,).
         fixed: Which of them stay, (n,): via points, and those beside given ends, which the spline
@@ -46,6 +47,7 @@ class StripPlaces(NamedTuple):
         rooms: The room beyond what is required about each of them [m], (n,).
     """
 
+    closed: bool
     places: Floats
     joints: Ints
     fixed: Flags
@@ -59,30 +61,32 @@ class StripPlaces(NamedTuple):
 
 @inner
 def _looking(
-    world: PackedWorld, body: StripBody, ends: Floats, places: Floats, joints: Ints, fixed: Flags,
-    normals: Floats, low: Floats, high: Floats,
+    world: PackedWorld, body: StripBody, ends: Floats, closed: bool, places: Floats, joints: Ints,
+    fixed: Flags, normals: Floats, low: Floats, high: Floats,
 ) -> StripPlaces:  # fmt: skip
     """A strip at places, with a look at the room that it has there."""
-    spans = strip_spans(places, normals, ends)
+    spans = strip_spans(places, normals, ends, closed)
     reach, rooms = np.empty(low.size), np.empty(low.size)
     beside, kept = np.empty(low.size), np.empty(low.size)
-    swept_sides(world, body, places, normals, spans, beside, kept)
+    swept_sides(world, body, closed, places, normals, spans, beside, kept)
     kept *= 1.0 + body.slack
     strip_room(world, places, normals, spans, beside, kept, low, high, reach, rooms)
-    return StripPlaces(places, joints, fixed, normals, spans, low, high, reach, rooms)
+    return StripPlaces(closed, places, joints, fixed, normals, spans, low, high, reach, rooms)
 
 
 @kernel
 def placed_strip(
-    world: PackedWorld, body: StripBody, ends: Floats, fineness: float, spans: Floats, joints: Ints
-) -> StripPlaces:
+    world: PackedWorld, body: StripBody, ends: Floats, closed: bool, fineness: float, spans: Floats,
+    joints: Ints,
+) -> StripPlaces:  # fmt: skip
     """A strip as a curve lies, with nothing known of the room beside it but what it sees there.
 
     Args:
         world: What to keep clear of.
         body: What drives along it.
         ends: Directions in which it leaves its start and comes to its end, unit vectors, nan where
-            it is free, (2, 2).
+            it is free or a round, (2, 2).
+        closed: Whether it is a round, which goes on at its end where it begins.
         fineness: By how much nearer to each other places are than usual.
         spans: The curve: Bézier control polygons [m], (m, 4, 2).
         joints: The span that begins at each via point, its start among them; m at its end, (k,).
@@ -95,7 +99,8 @@ def placed_strip(
     fixed[at] = True
     fixed[1] |= not math.isnan(ends[0, 0])
     fixed[count - 2] |= not math.isnan(ends[1, 0])
-    return _looking(world, body, ends, places, at, fixed, strip_normals(places), low, high)
+    normals = strip_normals(places, closed)
+    return _looking(world, body, ends, closed, places, at, fixed, normals, low, high)
 
 
 @inner
@@ -114,7 +119,9 @@ def _moved(
         if lower[j] > upper[j] - LEAST_ROOM_M:
             middle = 0.5 * (lower[j] + upper[j])
             lower[j], upper[j] = middle - LEAST_ROOM_M, middle + LEAST_ROOM_M
-    moved, _, turned = bent_strip(strip.places, strip.normals, lower, upper, strip.fixed, tension)
+    moved, _, turned = bent_strip(
+        strip.places, strip.normals, lower, upper, strip.fixed, strip.closed, tension
+    )  # fmt: skip
     moved *= min(1.0, MOST_TURNED / max(turned, 1e-12))
     places, low, high = strip.places.copy(), strip.low - moved, strip.high - moved
     most = 0.0
@@ -123,10 +130,12 @@ def _moved(
         for axis in range(2):
             places[j, axis] += moved[j] * strip.normals[j, axis]
     if turned > LITTLE_TURNED:
-        spans = strip_spans(places, strip.normals, ends)
-        return placed_strip(world, body, ends, fineness, spans, strip.joints), most
-    at = strip.joints, strip.fixed, strip.normals
-    return _looking(world, body, ends, places, at[0], at[1], at[2], low, high), most
+        spans = strip_spans(places, strip.normals, ends, strip.closed)
+        return placed_strip(world, body, ends, strip.closed, fineness, spans, strip.joints), most
+    looked = _looking(
+        world, body, ends, strip.closed, places, strip.joints, strip.fixed, strip.normals, low, high
+    )  # fmt: skip
+    return looked, most
 
 
 @kernel

@@ -97,11 +97,12 @@ def strip_places(
 
 
 @kernel
-def strip_normals(places: Floats) -> Floats:
+def strip_normals(places: Floats, closed: bool) -> Floats:
     """Unit vectors to the left of a row of places, square to the line from neighbour to neighbour.
 
     Args:
         places: [m], (n, 2).
+        closed: Whether it is a round, whose last place is its first.
 
     Returns:
         (n, 2).
@@ -110,6 +111,8 @@ def strip_normals(places: Floats) -> Floats:
     normals = np.empty((count, 2))
     for j in range(count):
         before, after = max(j - 1, 0), min(j + 1, count - 1)
+        if closed and (j == 0 or j == count - 1):
+            before, after = count - 2, 1
         dx, dy = places[after, 0] - places[before, 0], places[after, 1] - places[before, 1]
         long = math.hypot(dx, dy)
         normals[j, 0], normals[j, 1] = -dy / long, dx / long

@@ -1,7 +1,8 @@
 """The spline through the places of a strip, for each kind of ends that a strip may have.
 
 An end is free, and nothing bends it; or its direction is given, where another curve goes on without
-a bend: then it leads there without one, for which the place beside it gives way a little.
+a bend: then it leads there without one, for which the place beside it gives way a little. A round
+goes on at its end where it begins.
 """
 
 from __future__ import annotations
@@ -76,6 +77,26 @@ def _bent_at(places: Floats, steps: Floats, tangents: Floats, end: int, axis: in
 
 
 @inner
+def _round(places: Floats, steps: Floats, tangents: Floats, above: Floats) -> None:
+    """The tangents of a round: that at its seam from what its second derivative jumps by there."""
+    ends, jumps, last = np.zeros((2, 2)), np.zeros(2), places.shape[0] - 1
+    _tangents(places, steps, ends, tangents, above)
+    for axis in range(2):
+        jumps[axis] = _bent_at(places, steps, tangents, 0, axis)
+        jumps[axis] -= _bent_at(places, steps, tangents, 1, axis)
+    for axis in range(2):
+        ends[0, axis], ends[1, axis] = 1.0, 1.0
+    _tangents(places, steps, ends, tangents, above)
+    for axis in range(2):
+        jump = _bent_at(places, steps, tangents, 0, axis)
+        jump -= _bent_at(places, steps, tangents, 1, axis)
+        ends[0, axis] = ends[1, axis] = jumps[axis] / (jumps[axis] - jump)
+    _tangents(places, steps, ends, tangents, above)
+    for axis in range(2):
+        tangents[last, axis] = tangents[0, axis]
+
+
+@inner
 def _straight_ends(
     places: Floats, normals: Floats, steps: Floats, ends: Floats, tangents: Floats, above: Floats
 ) -> None:  # fmt: skip
@@ -108,7 +129,7 @@ def _straight_ends(
 
 
 @kernel
-def strip_spans(places: Floats, normals: Floats, ends: Floats) -> Floats:
+def strip_spans(places: Floats, normals: Floats, ends: Floats, closed: bool) -> Floats:
     """The cubic spline through places, its parameter their distances.
 
     Args:
@@ -117,13 +138,18 @@ def strip_spans(places: Floats, normals: Floats, ends: Floats) -> Floats:
         normals: Along which they are, (n, 2).
         ends: Directions in which it leaves the first place and comes to the last, unit vectors, nan
             where it is free, (2, 2).
+        closed: Whether it is a round, whose last place is its first; its ends are not looked at.
 
     Returns:
         Bézier control polygons (n - 1, 4, 2) [m]; their curvature is continuous, and none at ends.
     """
     count = places.shape[0]
     steps, tangents, above = np.empty(count - 1), np.empty((count, 2)), np.empty(count)
-    _straight_ends(places, normals, steps, ends, tangents, above)
+    if closed:
+        _steps(places, steps)
+        _round(places, steps, tangents, above)
+    else:
+        _straight_ends(places, normals, steps, ends, tangents, above)
     spans = np.empty((count - 1, 4, 2))
     for j in range(count - 1):
         for axis in range(2):

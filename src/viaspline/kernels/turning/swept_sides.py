@@ -85,7 +85,8 @@ def _pose(spans: Floats, along: Floats, at: float, first: int) -> tuple[float, f
 
 @inner
 def _reached(
-    outline: Floats, places: Floats, normals: Floats, spans: Floats, along: Floats, j: int
+    outline: Floats, closed: bool, places: Floats, normals: Floats, spans: Floats, along: Floats,
+    j: int,
 ) -> tuple[float, float]:  # fmt: skip
     """How far an outline reaches to the left and to the right of a place that it comes by [m]."""
     left, right = _flanks(outline)
@@ -94,6 +95,8 @@ def _reached(
         at, beyond, across = along[j], outline[k, 0], 0.0
         for _ in range(ROUNDS):
             at -= beyond
+            if closed:
+                at -= along[-1] * math.floor(at / along[-1])
             if not 0.0 <= at <= along[-1]:
                 break
             x, y, tx, ty = _pose(spans, along, at, min(j, spans.shape[0] - 1))
@@ -106,8 +109,8 @@ def _reached(
 
 @kernel
 def swept_sides(
-    world: PackedWorld, body: StripBody, places: Floats, normals: Floats, spans: Floats,
-    beside: Floats, half: Floats,
+    world: PackedWorld, body: StripBody, closed: bool, places: Floats, normals: Floats,
+    spans: Floats, beside: Floats, half: Floats,
 ) -> None:  # fmt: skip
     """How far to the left of each place the middle of what a body sweeps is, and half its width.
 
@@ -116,6 +119,7 @@ def swept_sides(
     Args:
         world: What stands there.
         body: It, its reference point on the curve and its heading along it.
+        closed: Whether the curve goes on at its end where it begins.
         places: Of the curve [m], (n, 2).
         normals: Unit vectors to the left of it, (n, 2).
         spans: The curve through the places [m], (n - 1, 4, 2).
@@ -138,5 +142,5 @@ def swept_sides(
         if gap >= NEAR * around + step:
             half[j] = around
             continue
-        left, right = _reached(outline, places, normals, spans, along, j)
+        left, right = _reached(outline, closed, places, normals, spans, along, j)
         beside[j], half[j] = 0.5 * (left - right), 0.5 * (left + right) + body.kept

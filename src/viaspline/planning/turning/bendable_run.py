@@ -32,13 +32,6 @@ class LaidRun:
     joints: Ints
     detours: Ints
 
-    def part(self, begin: int, end: int, joints: Sequence[int]) -> LaidRun:
-        """From one of its spans to before another, at these joints of all its spans."""
-        is_within = (self.detours >= begin) & (self.detours < end)
-        return LaidRun(
-            self.spans[begin:end], np.array(joints) - begin, self.detours[is_within] - begin
-        )  # fmt: skip
-
 
 @dataclass(frozen=True, eq=False)
 class BendableRun:
@@ -49,12 +42,14 @@ class BendableRun:
         stands: Whether the robot stands still at each of its joints, (n,).
         ends: Directions in which it begins and ends, unit vectors where another run goes on there
             or a heading is given, nan where it is free, (2, 2).
+        closed: Whether it is a round.
         stays: Whether it is to stay as it is.
     """
 
     laid: LaidRun
     stands: Flags
     ends: Floats
+    closed: bool = False
     stays: bool = False
 
     @cached_property
@@ -68,16 +63,19 @@ class RunsOfPath:
     """A path in runs.
 
     Attributes:
-        runs: In order.
-        vias: The run and the joint of it at which each via point lies.
+        runs: In order; those of a round from the first place on at which it may be parted.
+        vias: The run and the joint of it at which each via point lies, (n, 2); the start of a round
+            is its end as well.
+        closed: Whether it is a round.
     """
 
     runs: tuple[BendableRun, ...]
-    vias: tuple[tuple[int, int], ...]
+    vias: Ints
+    closed: bool
 
     @classmethod
     def of(
-        cls, laid: LaidRun, stays: Flags, stands: Flags, given: tuple[bool, bool]
+        cls, laid: LaidRun, stays: Flags, stands: Flags, given: tuple[bool, bool], closed: bool
     ) -> RunsOfPath:  # fmt: skip
         """The runs of a path, parted where its heading jumps and where what stays begins and ends.
 
@@ -86,33 +84,50 @@ class RunsOfPath:
             stays: Which spans stay as they are, (m,).
             stands: Whether the robot stands still at each via point, (n,).
             given: Whether there is a heading at its start and at its end that has to stay.
+            closed: Whether it is a round, which goes on at its end without a bend.
         """
-        parted = (stays[1:] != stays[:-1]) | _jumps(laid.spans)
-        begins = [0, *(np.flatnonzero(parted) + 1).tolist(), len(laid.spans)]
-        at_vias = dict(zip(laid.joints.tolist(), stands.tolist(), strict=True))
-        runs, vias = [], []
-        for k, (a, b) in enumerate(pairwise(begins)):
-            is_last = b == begins[-1]
-            joints = [a, *(joint for joint in at_vias if a < joint < b), b]
-            mine = joints if is_last else joints[:-1]  # the next one begins at its end
-            vias += [(k, i) for i, joint in enumerate(mine) if joint in at_vias]
-            ends = _ends(laid.spans[a:b])
-            if a == 0 and not given[0]:
+        count = len(laid.spans)
+        parted = (stays != np.roll(stays, 1)) | _jumps(laid.spans)
+        if closed and not parted.any():
+            run = BendableRun(laid, stands, np.full((2, 2), np.nan), closed=True)
+            at = np.arange(len(laid.joints) - 1)
+            return cls((run,), np.column_stack((0 * at, at)), closed)
+        first = int(np.flatnonzero(parted)[0]) if closed else 0
+        begins = np.union1d(np.flatnonzero(np.roll(parted, -first)), [0, count])
+        spans = np.ascontiguousarray(np.roll(laid.spans, -first, axis=0))
+        kept, detours = np.roll(stays, -first), (laid.detours - first) % count
+        wanted = (laid.joints[:-1] - first) % count if closed else laid.joints
+        run_of = np.minimum(np.searchsorted(begins, wanted, side="right") - 1, len(begins) - 2)
+        runs, where = [], np.column_stack((run_of, run_of))
+        for k, (a, b) in enumerate(pairwise(begins.tolist())):
+            joints = np.union1d([0, b - a], wanted[run_of == k] - a)
+            where[run_of == k, 1] = np.searchsorted(joints, wanted[run_of == k] - a)
+            halts: Flags = np.zeros(len(joints), np.bool_)
+            halts[where[run_of == k, 1]] = stands[: len(wanted)][run_of == k]
+            own = detours[(detours >= a) & (detours < b)] - a
+            ends = _ends(spans[a:b])
+            if not closed and a == 0 and not given[0]:
                 ends[0] = np.nan
-            if is_last and not given[1]:
+            if not closed and b == count and not given[1]:
                 ends[1] = np.nan
-            halts = np.array([at_vias.get(joint, False) for joint in joints])
-            runs.append(BendableRun(laid.part(a, b, joints), halts, ends, bool(stays[a])))
-        return cls(tuple(runs), tuple(vias))
+            runs.append(
+                BendableRun(LaidRun(spans[a:b], joints, own), halts, ends, stays=bool(kept[a]))
+            )  # fmt: skip
+        return cls(tuple(runs), where, closed)
 
     def joined(self, parts: Sequence[LaidRun]) -> LaidRun:
         """The path with its runs laid in another way."""
+        spans = np.concatenate([part.spans for part in parts])
         begins = np.cumsum([0, *(len(part.spans) for part in parts)])
-        joints = np.array([begins[run] + parts[run].joints[at] for run, at in self.vias])
-        detours = [begin + part.detours for begin, part in zip(begins, parts, strict=False)]
-        return LaidRun(
-            np.concatenate([part.spans for part in parts]), joints, np.concatenate(detours)
-        )  # fmt: skip
+        joints = np.array([begins[run] + parts[run].joints[at] for run, at in self.vias.tolist()])
+        detours = np.concatenate(
+            [begin + part.detours for begin, part in zip(begins, parts, strict=False)]
+        )
+        if not self.closed:
+            return LaidRun(spans, joints, detours)
+        first, count = int(joints[0]), len(spans)
+        around = np.append((joints - first) % count, count)
+        return LaidRun(np.roll(spans, -first, axis=0), around, np.sort((detours - first) % count))
 
 
 def _ends(spans: Floats) -> Floats:
@@ -123,8 +138,8 @@ def _ends(spans: Floats) -> Floats:
 
 
 def _jumps(spans: Floats) -> Flags:
-    """Where the heading jumps from the span before, for all but the first, (m - 1,)."""
-    along, before = spans[1:, 1] - spans[1:, 0], spans[:-1, 3] - spans[:-1, 2]
+    """Where the heading jumps from the span before, that before the first the last, (m,)."""
+    along, before = spans[:, 1] - spans[:, 0], np.roll(spans[:, 3] - spans[:, 2], 1, axis=0)
     across = before[:, 0] * along[:, 1] - before[:, 1] * along[:, 0]
     found: Flags = np.abs(np.arctan2(across, (before * along).sum(axis=1))) > JUMP_RAD
     return found

@@ -31,10 +31,9 @@ STRAIGHT_SPAN = 1e-7  # by which a straight one's controls are off, in required 
 def gentler_path(problem: DrivenProblem, laid: SplinePath) -> SplinePath | None:
     """A clear path on the same sides that bends less; None where there is none.
 
-    That is for a path that is chosen by time, and is no round. Lines between via points that it
-    keeps to stay as they are, and so do headings that are given, and those at ends where a body has
-    no room for another. No turn becomes sharper that the robot has to slow down for, unless that is
-    sooner.
+    That is for a path that is chosen by time. Lines between via points that it keeps to stay as
+    they are, and so do headings that are given, and those at ends where a body has no room for
+    another. No turn becomes sharper that the robot has to slow down for, unless that is sooner.
 
     Args:
         problem: What is to be driven.
@@ -61,8 +60,6 @@ def _may_be_bent(problem: DrivenProblem) -> bool:
     needs, sequence = problem.requirements, problem.sequence
     if not needs.objective.is_time or needs.has_own_tension:
         return False
-    if sequence.closed:  # laps of fleets' patrols are timed in what is left of a period
-        return False
     has_headings = sequence.start_tangent is not None or sequence.end_tangent is not None
     return needs.budget is None or not has_headings  # under way there is no time for it
 
@@ -75,12 +72,11 @@ def _in_runs(problem: DrivenProblem, laid: SplinePath) -> RunsOfPath:
         np.ascontiguousarray(laid.spans[:, :, :2]), laid.joints, np.array(detours, np.int64)
     )
     stands = np.array([sequence.stands(k) for k in range(len(laid.joints))])
-    tight = [not _may_turn(problem, place) for place in (planar.spans[0, 0], planar.spans[-1, 3])]
     given = (
-        tight[0] or sequence.start_tangent is not None,
-        tight[1] or sequence.end_tangent is not None,
+        sequence.start_tangent is not None or not _may_turn(problem, planar.spans[0, 0]),
+        sequence.end_tangent is not None or not _may_turn(problem, planar.spans[-1, 3]),
     )
-    return RunsOfPath.of(planar, _on_lanes(problem, laid), stands, given)
+    return RunsOfPath.of(planar, _on_lanes(problem, laid), stands, given, sequence.closed)
 
 
 def _may_turn(problem: DrivenProblem, place: Floats) -> bool:

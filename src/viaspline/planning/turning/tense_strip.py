@@ -49,13 +49,16 @@ class TenseStrip:
     def along(cls, run: BendableRun, world: World, body: StripBody) -> TenseStrip:
         """A strip as a run of a path lies."""
         laid = run.laid
-        strip = placed_strip(world.packed, body, run.ends, 1.0, laid.spans, laid.joints)
+        strip = placed_strip(
+            world.packed, body, run.ends, run.closed, 1.0, laid.spans, laid.joints
+        )  # fmt: skip
         return cls(run, world, body, 1.0, strip)
 
     def finer(self) -> TenseStrip:
         """It with places nearer to each other."""
+        run = self.run
         strip = placed_strip(
-            self.world.packed, self.body, self.run.ends, FINE, self.spans, self.joints
+            self.world.packed, self.body, run.ends, run.closed, FINE, self.spans, self.joints
         )  # fmt: skip
         return replace(self, fineness=FINE, strip=strip, is_settled=False)
 
