@@ -23,14 +23,15 @@ def run(words: str, redirection: str = "", **environment: str) -> subprocess.Com
 @pytest.mark.parametrize("words", [f"check {MISSION}", "--help", "check --schema"])
 def test_an_output_that_is_closed_is_no_error(words: str) -> None:
     done = run(words, ">&-")
-    assert (done.returncode, done.stderr) == (0, "")
+    said = [line for line in done.stderr.splitlines() if not line.startswith("reading ")]
+    assert (done.returncode, said) == (0, [])
 
 
 @pytest.mark.parametrize("words", [f"check {MISSION}", "--help", "check --schema"])
 def test_an_output_that_is_full_is_said_on_the_error_stream(words: str) -> None:
     done = run(words, "> /dev/full")
     assert done.returncode == 2
-    assert done.stderr == (
+    assert done.stderr.endswith(  # a busy machine says before it what it is reading
         "viaspline: <output>: can't be written (no space left on device); "
         "free some space, or send it elsewhere\n"
     )
