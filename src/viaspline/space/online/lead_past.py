@@ -32,7 +32,8 @@ SPEED_SHARES: Final = (0.6, 0.3, 0.0)
 """Of the speed, down to which the robot brakes where a path can't be flown into any faster."""
 
 ASIDE: Final = "aside"
-"""What a place is called through which a path swerves: it needn't be served by another path."""
+"""What a place is called through which a path swerves: it needn't be served by another path. Unlike
+a via point of the route that has this name it has no index."""
 
 
 def reacted(flight: Flight, now: float, seen: Sequence[UnseenSolid]) -> Flight:
@@ -107,7 +108,9 @@ def still_ahead(flight: Flight, begins: Takeover) -> tuple[SpatialVia, ...]:
     distances = np.asarray(leg.path.distance([via.u for via in users]))
     later = distances > begins.distance + 1e-6
     vias = zip(problem.vias, later, strict=True)
-    return tuple(via for via, after in vias if after and via.name != ASIDE)
+    return tuple(
+        via for via, after in vias if after and not (via.index is None and via.name == ASIDE)
+    )
 
 
 def taken_over(
