@@ -129,19 +129,21 @@ def let_in_too_early(orders: FleetOrders, promised: Floats, progress: Floats) ->
         promised: The farthest that each robot may take to be granted [m], (n,).
         progress: How far each has come at least [m], (n,).
     """
+    bars, robots = _passed_too_early(orders, promised, progress)
+    return dict(zip(orders.packed.crossing[bars].tolist(), robots.tolist(), strict=True))
+
+
+def _passed_too_early(
+    orders: FleetOrders, promised: Floats, progress: Floats
+) -> tuple[Ints, Ints]:  # fmt: skip
+    """The bars beyond which robots have been let before those that are to pass first, and whom."""
     packed = orders.packed
     robot = np.repeat(np.arange(len(orders.names)), np.diff(packed.first))
-    bars = _passed_too_early(orders, robot, promised, progress)
-    return dict(zip(packed.crossing[bars].tolist(), robot[bars].tolist(), strict=True))
-
-
-def _passed_too_early(orders: FleetOrders, robot: Ints, promised: Floats, progress: Floats) -> Ints:
-    """The bars beyond which robots have been let before those that are to pass first."""
-    packed = orders.packed
     counts = orders.leaders[packed.crossing] == packed.other
     is_here = np.isfinite(progress)[robot]
     late = counts & is_here & (promised[robot] > packed.place + SAME_M)
-    return np.flatnonzero(late & (progress[packed.other] < packed.passed))
+    bars = np.flatnonzero(late & (progress[packed.other] < packed.passed))
+    return bars, robot[bars]
 
 
 def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> None:
@@ -157,9 +159,10 @@ def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> Non
         GeometryError: With who was to pass before whom.
     """
     packed = orders.packed
-    robot = np.repeat(np.arange(len(orders.names)), np.diff(packed.first))
-    for b in _passed_too_early(orders, robot, promised, progress)[:1].tolist():
-        first, second = orders.names[packed.other[b]], orders.names[robot[b]]
+    bars, robots = _passed_too_early(orders, promised, progress)
+    if bars.size:
+        b = int(bars[0])
+        first, second = orders.names[packed.other[b]], orders.names[int(robots[0])]
         raise GeometryError(
             f"{first} is to pass before {second}, which may have gone beyond "
             f"{packed.place[b]:.1f} m already; plan {first} so that it passes after {second}"

@@ -183,9 +183,9 @@ class FleetUnderWay:
         fleet, state = self.fleet, self.state.without_laps(robot)
         while (later := rolled_over(state, fleet, FleetStations.of(fleet))) is not state:
             state = later
-        state = state.copied(state.time)
-        state.out[robot] = False
-        return replace(self, state=replace(state, events=self.state.events))
+        out = state.out.copy()
+        out[robot] = False
+        return replace(self, state=replace(state, out=out))
 
 
 def _departing(member: FleetMember, time: float) -> FleetMember:

@@ -14,6 +14,7 @@ from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.perception.belief import MIN_DISC_RADIUS_M
 from viaspline.trajectory.coupled import is_coupled
 from viaspline.trajectory.limits import Limits
 
@@ -21,7 +22,7 @@ PART_RATIO, PART_S = 2.0, 3.0
 """Where laws are dear a new one reaches so many stopping distances ahead, and what the robot
 drives in so long a time [s],"""
 
-LEAST_PART_M = 0.004
+LEAST_PART_M = 0.8 * MIN_DISC_RADIUS_M
 """but no less than this, which is less than the smallest cell that a robot probes: one that stands
 stays there, and one that stops there does [m];"""
 
