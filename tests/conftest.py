@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 import viaspline as vs
 from viaspline.errors import MissionWarning
+from viaspline.kernels.loaded_kernels import LoadedKernel, loaded_kernels
 from viaspline.maps.grid import Grid
 from viaspline.maps.terrain import Terrain
 from viaspline.maps.voxels import Voxels
@@ -30,6 +31,20 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 settings.load_profile("viaspline")
+
+LOADED_TO_COLLECT = pytest.StashKey[frozenset[LoadedKernel]]()
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """Note what the tests have computed by then, where they are imported."""
+    session.config.stash[LOADED_TO_COLLECT] = loaded_kernels()
+
+
+@pytest.fixture(scope="session")
+def loaded_to_collect(pytestconfig: pytest.Config) -> frozenset[LoadedKernel]:
+    """The kernels that were compiled, or loaded, before the first test ran."""
+    return pytestconfig.stash[LOADED_TO_COLLECT]
+
 
 Floats = NDArray[np.float64]
 Oracle = Callable[..., Floats]

@@ -8,6 +8,8 @@ from pathlib import Path
 import grimp
 import pytest
 
+from viaspline.kernels.loaded_kernels import LoadedKernel
+
 ROOT = Path(__file__).resolve().parents[1]
 SOURCE = ROOT / "src" / "viaspline"
 FILES = sorted(path for path in SOURCE.rglob("*.py") if not path.name.startswith("__"))
@@ -74,6 +76,13 @@ def test_tests_stand_where_their_files_do() -> None:
     rooms = {path.parent.relative_to(SOURCE).as_posix() for path in FILES}
     for test in (ROOT / "tests").rglob("test_*.py"):
         assert test.parent.relative_to(ROOT / "tests").as_posix() in rooms
+
+
+def test_nothing_is_planned_where_tests_are_imported(
+    loaded_to_collect: frozenset[LoadedKernel],
+) -> None:
+    """Every process that runs tests would do it before its first one: let fixtures do it."""
+    assert not sorted(f"{one.module}.{one.name}" for one in loaded_to_collect)
 
 
 def test_commands_of_the_documentation_name_files_that_exist() -> None:

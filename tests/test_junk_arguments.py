@@ -1,39 +1,29 @@
 """Whatever is handed in from Python: an answer, or an error of the package's own."""
 
 from collections.abc import Callable
+from functools import cached_property
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import viaspline as vs
 
 MISSION = vs.Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}})
 LIMITS = vs.Limits(max_speed=1, max_accel=1)
-CURVE = vs.CardinalSpline([[0, 0], [1, 0], [2, 1]])
-WORLD = vs.World()
 PLAN = Path(__file__).parent / "formats" / "data" / "yard.plan"
 CELLS = np.zeros((2, 2), np.bool_)
-LAW = vs.retime(CURVE, LIMITS)
 CART = vs.Obstacle(
     circle={"center": (0, 0), "radius": 1}, motion={"from": (0, 5), "velocity_mps": (1, 0)}
 )
-MOVING = vs.MovingObstacles([CART])
-NAV = vs.Navigator(MISSION, warm=False)
 STATE = vs.RobotState((0.0, 0.0), 0.0, 0.0)
-MADE = vs.plan(MISSION)
-SAVED = Path(mkdtemp())
-MADE.save(SAVED)
-AXES = Figure().add_subplot()
 FLEET = vs.Fleet.model_validate(
     {"fleet": [{"name": "a", "route": {"start": [0, 0], "goal": [9, 0]}}]}
 )
-FLEET_PLAN = vs.plan_fleet(FLEET)
-FLEET_NAV = vs.FleetNavigator(FLEET_PLAN, warm=False)
-ROUTE_PLAN = vs.plan(MISSION)
 TO_NOWHERE = "no such folder/x.plan"
 
 JUNK: list[Any] = [
@@ -41,6 +31,55 @@ JUNK: list[Any] = [
     [[0, 0], [float("nan"), 1]], np.zeros((0, 2)), np.zeros((2, 2, 2)), np.array(["a"]), print,
     "x" * 5000, "\0",
 ]  # fmt: skip
+
+
+class Made:
+    """What has to be planned, timed or packed first: each when a test first asks for it."""
+
+    @cached_property
+    def curve(self) -> vs.CardinalSpline:
+        return vs.CardinalSpline([[0, 0], [1, 0], [2, 1]])
+
+    @cached_property
+    def law(self) -> vs.Trajectory:
+        return vs.retime(self.curve, LIMITS)
+
+    @cached_property
+    def world(self) -> vs.World:
+        return vs.World()
+
+    @cached_property
+    def moving(self) -> vs.MovingObstacles:
+        return vs.MovingObstacles([CART])
+
+    @cached_property
+    def plan(self) -> vs.Plan:
+        return vs.plan(MISSION)
+
+    @cached_property
+    def saved(self) -> Path:
+        folder = Path(mkdtemp())
+        self.plan.save(folder)
+        return folder
+
+    @cached_property
+    def navigator(self) -> vs.Navigator:
+        return vs.Navigator(MISSION, warm=False)
+
+    @cached_property
+    def axes(self) -> Axes:
+        return Figure().add_subplot()
+
+    @cached_property
+    def fleet_plan(self) -> vs.FleetPlan:
+        return vs.plan_fleet(FLEET)
+
+    @cached_property
+    def fleet_navigator(self) -> vs.FleetNavigator:
+        return vs.FleetNavigator(self.fleet_plan, warm=False)
+
+
+MADE = Made()
 
 
 def uncallable(junk: Any) -> Any:
@@ -66,35 +105,35 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "load_map": vs.load_map,
     "load_plan": vs.load_plan,
     "load_fleet_plan": vs.load_fleet_plan,
-    "load_plan mission": lambda junk: vs.load_plan(SAVED, junk),
-    "Plan save": lambda junk: MADE.save(unsaid(junk)),
-    "Plan samples": MADE.samples,
-    "Plan plot": lambda junk: MADE.plot(junk if junk is not None else 5),
-    "Run animate": lambda junk: vs.simulate(MISSION, plan=MADE).animate(AXES, pace=junk),
+    "load_plan mission": lambda junk: vs.load_plan(MADE.saved, junk),
+    "Plan save": lambda junk: MADE.plan.save(unsaid(junk)),
+    "Plan samples": lambda junk: MADE.plan.samples(junk),
+    "Plan plot": lambda junk: MADE.plan.plot(junk if junk is not None else 5),
+    "Run animate": lambda junk: vs.simulate(MISSION, plan=MADE.plan).animate(MADE.axes, pace=junk),
     "CardinalSpline": vs.CardinalSpline,
     "CardinalSpline tension": lambda junk: vs.CardinalSpline([[0, 0], [1, 0]], tension=junk),
     "CardinalSpline knots": lambda junk: vs.CardinalSpline([[0, 0], [1, 0]], knots=junk),
     "PiecewiseCubic": vs.PiecewiseCubic,
     "Path": lambda junk: vs.Path(junk, vias=[]),
-    "evaluate": CURVE.evaluate,
-    "at_distance": CURVE.at_distance,
-    "project": CURVE.project,
+    "evaluate": lambda junk: MADE.curve.evaluate(junk),
+    "at_distance": lambda junk: MADE.curve.at_distance(junk),
+    "project": lambda junk: MADE.curve.project(junk),
     "World": vs.World,
     "World bounds": lambda junk: vs.World(bounds=junk),
     "World fences": lambda junk: vs.World(fences=junk),
-    "distance": WORLD.distance,
-    "certify curve": lambda junk: vs.certify(junk, WORLD, 1.0),
-    "certify world": lambda junk: vs.certify(CURVE, junk, 1.0),
-    "certify clearance": lambda junk: vs.certify(CURVE, WORLD, junk),
+    "distance": lambda junk: MADE.world.distance(junk),
+    "certify curve": lambda junk: vs.certify(junk, MADE.world, 1.0),
+    "certify world": lambda junk: vs.certify(MADE.curve, junk, 1.0),
+    "certify clearance": lambda junk: vs.certify(MADE.curve, MADE.world, junk),
     "Limits": lambda junk: vs.Limits(max_speed=junk, max_accel=1),
     "retime": lambda junk: vs.retime(junk, LIMITS),
-    "retime limits": lambda junk: vs.retime(CURVE, junk),
-    "retime stations": lambda junk: vs.retime(CURVE, LIMITS, junk),
+    "retime limits": lambda junk: vs.retime(MADE.curve, junk),
+    "retime stations": lambda junk: vs.retime(MADE.curve, LIMITS, junk),
     "retime_lap": lambda junk: vs.retime_lap(junk, LIMITS),
-    "retime_lap limits": lambda junk: vs.retime_lap(CURVE, junk),
-    "retime zones": lambda junk: vs.retime(CURVE, LIMITS, zones=junk),
-    "Station distance": lambda junk: vs.retime(CURVE, LIMITS, [vs.Station(junk)]),
-    "Station dwell": lambda junk: vs.retime(CURVE, LIMITS, [vs.Station(1.0, junk)]),
+    "retime_lap limits": lambda junk: vs.retime_lap(MADE.curve, junk),
+    "retime zones": lambda junk: vs.retime(MADE.curve, LIMITS, zones=junk),
+    "Station distance": lambda junk: vs.retime(MADE.curve, LIMITS, [vs.Station(junk)]),
+    "Station dwell": lambda junk: vs.retime(MADE.curve, LIMITS, [vs.Station(1.0, junk)]),
     "simulate seed": lambda junk: vs.simulate(MISSION, seed=junk),
     "simulate step": lambda junk: vs.simulate(MISSION, step=junk),
     "simulate plan": lambda junk: vs.simulate(MISSION, plan=junk),
@@ -105,15 +144,19 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "Navigator period": lambda junk: vs.Navigator(MISSION, period=junk),
     "Navigator warm": lambda junk: vs.Navigator(MISSION, warm=junk),
     "Navigator progress": lambda junk: vs.Navigator(MISSION, progress=uncallable(junk)),
-    "warm": lambda junk: NAV.warm(uncallable(junk)),
-    "Navigator step": lambda junk: NAV.step(junk, [], 0.0),
-    "Navigator sensed": lambda junk: NAV.step(STATE, junk, 0.0),
-    "Navigator time": lambda junk: NAV.step(STATE, [], junk),
-    "Navigator reference": NAV.reference,
-    "RobotState position": lambda junk: NAV.step(vs.RobotState(junk, 0.0, 0.0), [], 0.0),
-    "RobotState heading": lambda junk: NAV.step(vs.RobotState((0, 0), junk, 0.0), [], 0.0),
-    "RobotState speed": lambda junk: NAV.step(vs.RobotState((0, 0), 0.0, junk), [], 0.0),
-    "RobotState across": lambda junk: NAV.step(vs.RobotState((0, 0), 0, 0, junk), [], 0.0),
+    "warm": lambda junk: MADE.navigator.warm(uncallable(junk)),
+    "Navigator step": lambda junk: MADE.navigator.step(junk, [], 0.0),
+    "Navigator sensed": lambda junk: MADE.navigator.step(STATE, junk, 0.0),
+    "Navigator time": lambda junk: MADE.navigator.step(STATE, [], junk),
+    "Navigator reference": lambda junk: MADE.navigator.reference(junk),
+    "RobotState position": lambda junk: MADE.navigator.step(vs.RobotState(junk, 0.0, 0.0), [], 0.0),
+    "RobotState heading": lambda junk: MADE.navigator.step(
+        vs.RobotState((0, 0), junk, 0.0), [], 0.0
+    ),
+    "RobotState speed": lambda junk: MADE.navigator.step(vs.RobotState((0, 0), 0.0, junk), [], 0.0),
+    "RobotState across": lambda junk: MADE.navigator.step(
+        vs.RobotState((0, 0), 0, 0, junk), [], 0.0
+    ),
     "Logbook": lambda junk: vs.Logbook().note(junk),
     "Obstacle": vs.Obstacle.model_validate,
     "Obstacle circle": lambda junk: vs.Obstacle(circle=junk),
@@ -146,17 +189,17 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "Grid unknown": lambda junk: vs.Grid(CELLS, 1.0, unknown=junk),
     "Grid center": lambda junk: vs.Grid(CELLS, 1.0).center(junk, 0),
     "Grid to_cells": vs.Grid(CELLS, 1.0).to_cells,
-    "Path vias": lambda junk: vs.Path(CURVE.spans, vias=junk),
-    "section": lambda junk: CURVE.section(junk, 1.0),
-    "sample": CURVE.sample,
-    "evaluate derivative": lambda junk: CURVE.evaluate(0.5, junk),
-    "certify footprint": lambda junk: vs.certify(CURVE, WORLD, 1.0, footprint=junk),
+    "Path vias": lambda junk: vs.Path(MADE.curve.spans, vias=junk),
+    "section": lambda junk: MADE.curve.section(junk, 1.0),
+    "sample": lambda junk: MADE.curve.sample(junk),
+    "evaluate derivative": lambda junk: MADE.curve.evaluate(0.5, junk),
+    "certify footprint": lambda junk: vs.certify(MADE.curve, MADE.world, 1.0, footprint=junk),
     "advise_tension tensions": lambda junk: vs.advise_tension(MISSION, junk),
     "advise_tension world": lambda junk: vs.advise_tension(MISSION, world=junk),
-    "Trajectory": LAW.state_at,
+    "Trajectory": lambda junk: MADE.law.state_at(junk),
     "MovingObstacles": vs.MovingObstacles,
     "MovingObstacles since": lambda junk: vs.MovingObstacles([CART], since=junk),
-    "MovingObstacles distance": lambda junk: MOVING.distance([(0, 0)], times=junk),
+    "MovingObstacles distance": lambda junk: MADE.moving.distance([(0, 0)], times=junk),
     "MovingSighting": lambda junk: vs.MovingSighting(0, junk, (0, 0, 0), (0, 0)),
     "MovingSighting index": lambda junk: vs.MovingSighting(junk, CART, (0, 0, 0), (0, 0)),
     "MovingSighting frame": lambda junk: vs.MovingSighting(0, CART, junk, (0, 0)),
@@ -173,11 +216,15 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "Scan heading": lambda junk: vs.Scan((0, 0), junk, 0.0, 0.1, 9.0, [1.0, 2.0]),
     "Scan increment": lambda junk: vs.Scan((0, 0), 0.0, 0.0, junk, 9.0, [1.0, 2.0]),
     "Scan range_max": lambda junk: vs.Scan((0, 0), 0.0, 0.0, 0.1, junk, [1.0, 2.0]),
-    "certify_moving": lambda junk: vs.certify_moving(junk, LAW, MOVING, 1.0),
-    "certify_moving law": lambda junk: vs.certify_moving(CURVE, junk, MOVING, 1.0),
-    "certify_moving moving": lambda junk: vs.certify_moving(CURVE, LAW, junk, 1.0),
-    "certify_moving clearance": lambda junk: vs.certify_moving(CURVE, LAW, MOVING, junk),
-    "certify_moving hold": lambda junk: vs.certify_moving(CURVE, LAW, MOVING, 1.0, hold=junk),
+    "certify_moving": lambda junk: vs.certify_moving(junk, MADE.law, MADE.moving, 1.0),
+    "certify_moving law": lambda junk: vs.certify_moving(MADE.curve, junk, MADE.moving, 1.0),
+    "certify_moving moving": lambda junk: vs.certify_moving(MADE.curve, MADE.law, junk, 1.0),
+    "certify_moving clearance": lambda junk: vs.certify_moving(
+        MADE.curve, MADE.law, MADE.moving, junk
+    ),
+    "certify_moving hold": lambda junk: vs.certify_moving(
+        MADE.curve, MADE.law, MADE.moving, 1.0, hold=junk
+    ),
     "Fleet": vs.Fleet.model_validate,
     "Fleet separation": lambda junk: vs.Fleet.of(FLEET.members, junk),
     "plan_fleet": vs.plan_fleet,
@@ -186,42 +233,48 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "plan_fleet periods": lambda junk: vs.plan_fleet(FLEET, periods=junk),
     "plan_fleet progress": lambda junk: vs.plan_fleet(FLEET, progress=uncallable(junk)),
     "simulate_fleet": vs.simulate_fleet,
-    "simulate_fleet delays": lambda junk: vs.simulate_fleet(FLEET, junk, FLEET_PLAN),
+    "simulate_fleet delays": lambda junk: vs.simulate_fleet(FLEET, junk, MADE.fleet_plan),
     "simulate_fleet plan": lambda junk: vs.simulate_fleet(FLEET, plan=junk),
-    "simulate_fleet seed": lambda junk: vs.simulate_fleet(FLEET, plan=FLEET_PLAN, seed=junk),
-    "simulate_fleet step": lambda junk: vs.simulate_fleet(FLEET, plan=FLEET_PLAN, step=junk),
+    "simulate_fleet seed": lambda junk: vs.simulate_fleet(FLEET, plan=MADE.fleet_plan, seed=junk),
+    "simulate_fleet step": lambda junk: vs.simulate_fleet(FLEET, plan=MADE.fleet_plan, step=junk),
     "Delays": lambda junk: vs.Delays(slowed=junk),
     "Delays halts": lambda junk: vs.Delays(halts=junk),
     "FleetNavigator": vs.FleetNavigator,
-    "FleetNavigator margin": lambda junk: vs.FleetNavigator(FLEET_PLAN, margin_m=junk),
-    "FleetNavigator tolerance": lambda junk: vs.FleetNavigator(FLEET_PLAN, stops_within_m=junk),
-    "FleetNavigator robot": lambda junk: FLEET_NAV.with_robot(junk),
-    "FleetNavigator elsewhere": lambda junk: FLEET_NAV.rerouted("a", junk),
-    "FleetNavigator stopping": lambda junk: FLEET_NAV.stopping(junk),
+    "FleetNavigator margin": lambda junk: vs.FleetNavigator(MADE.fleet_plan, margin_m=junk),
+    "FleetNavigator tolerance": lambda junk: vs.FleetNavigator(
+        MADE.fleet_plan, stops_within_m=junk
+    ),
+    "FleetNavigator robot": lambda junk: MADE.fleet_navigator.with_robot(junk),
+    "FleetNavigator elsewhere": lambda junk: MADE.fleet_navigator.rerouted("a", junk),
+    "FleetNavigator stopping": lambda junk: MADE.fleet_navigator.stopping(junk),
     "export": lambda junk: vs.export(junk, "x.csv"),
-    "export path": lambda junk: vs.export(ROUTE_PLAN, junk),
-    "export origin": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, origin=junk),
-    "export chord_error": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, chord_error=junk),
-    "export acceptance": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, acceptance=junk),
-    "export spacing": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, spacing=junk),
-    "export name": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, name=junk),
+    "export path": lambda junk: vs.export(MADE.plan, junk),
+    "export origin": lambda junk: vs.export(MADE.plan, TO_NOWHERE, origin=junk),
+    "export chord_error": lambda junk: vs.export(MADE.plan, TO_NOWHERE, chord_error=junk),
+    "export acceptance": lambda junk: vs.export(MADE.plan, TO_NOWHERE, acceptance=junk),
+    "export spacing": lambda junk: vs.export(MADE.plan, TO_NOWHERE, spacing=junk),
+    "export name": lambda junk: vs.export(MADE.plan, TO_NOWHERE, name=junk),
     "ExportOptions": lambda junk: vs.ExportOptions(junk).checked(),
     "export_fleet": lambda junk: vs.export_fleet(junk, TO_NOWHERE),
-    "export_fleet path": lambda junk: vs.export_fleet(FLEET_PLAN, junk),
-    "export_fleet options": lambda junk: vs.export_fleet(FLEET_PLAN, TO_NOWHERE, junk),
-    "FleetMember": lambda junk: vs.add_robot(FLEET_PLAN, vs.FleetMember("b", junk)),
+    "export_fleet path": lambda junk: vs.export_fleet(MADE.fleet_plan, junk),
+    "export_fleet options": lambda junk: vs.export_fleet(MADE.fleet_plan, TO_NOWHERE, junk),
+    "FleetMember": lambda junk: vs.add_robot(MADE.fleet_plan, vs.FleetMember("b", junk)),
     "add_robot": lambda junk: vs.add_robot(junk, FLEET.members[0]),
-    "add_robot member": lambda junk: vs.add_robot(FLEET_PLAN, junk),
+    "add_robot member": lambda junk: vs.add_robot(MADE.fleet_plan, junk),
     "remove_robot": lambda junk: vs.remove_robot(junk, "a"),
-    "remove_robot name": lambda junk: vs.remove_robot(FLEET_PLAN, junk),
+    "remove_robot name": lambda junk: vs.remove_robot(MADE.fleet_plan, junk),
     "reroute_robot": lambda junk: vs.reroute_robot(junk, FLEET.members[0]),
-    "reroute_robot member": lambda junk: vs.reroute_robot(FLEET_PLAN, junk),
-    "FleetNavigator period": lambda junk: vs.FleetNavigator(FLEET_PLAN, period=junk),
-    "FleetNavigator reports": lambda junk: FLEET_NAV.step(junk, 0.0),
-    "FleetNavigator time": lambda junk: FLEET_NAV.step([], junk),
-    "ProgressReport name": lambda junk: FLEET_NAV.step([vs.ProgressReport(junk, 0.0, 0.0)], 0.0),
-    "ProgressReport time": lambda junk: FLEET_NAV.step([vs.ProgressReport("a", junk, 0.0)], 0.0),
-    "ProgressReport distance": lambda junk: FLEET_NAV.step(
+    "reroute_robot member": lambda junk: vs.reroute_robot(MADE.fleet_plan, junk),
+    "FleetNavigator period": lambda junk: vs.FleetNavigator(MADE.fleet_plan, period=junk),
+    "FleetNavigator reports": lambda junk: MADE.fleet_navigator.step(junk, 0.0),
+    "FleetNavigator time": lambda junk: MADE.fleet_navigator.step([], junk),
+    "ProgressReport name": lambda junk: MADE.fleet_navigator.step(
+        [vs.ProgressReport(junk, 0.0, 0.0)], 0.0
+    ),
+    "ProgressReport time": lambda junk: MADE.fleet_navigator.step(
+        [vs.ProgressReport("a", junk, 0.0)], 0.0
+    ),
+    "ProgressReport distance": lambda junk: MADE.fleet_navigator.step(
         [vs.ProgressReport("a", 0.0, junk)], 0.0
     ),
 }

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ from viaspline.formats.local_frame import LocalFrame
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.mission.model import Mission
 from viaspline.plan_mission import plan
+from viaspline.whole_plan import Plan
 
 ORIGIN = (47.3977, 8.5456)
 ENDINGS = [ending for each in path_formats() for ending in each.endings]
@@ -35,7 +37,9 @@ def mission(**keys: Any) -> Mission:
     return Mission.model_validate({"world": {"known": known}, "route": route, **keys})
 
 
-PLANNED = plan(mission())
+@cache
+def planned_yard() -> Plan:
+    return plan(mission())
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
@@ -44,7 +48,7 @@ def test_every_format_gives_the_same_bytes_and_says_what_is_proven(
 ) -> None:
     first, second = tmp_path / f"a{ending}", tmp_path / "b" / f"a{ending}"
     second.parent.mkdir()
-    done = [export(PLANNED, file, origin=ORIGIN) for file in (first, second)]
+    done = [export(planned_yard(), file, origin=ORIGIN) for file in (first, second)]
     assert first.read_bytes() == second.read_bytes()
     assert done[0].proof.clearance >= 0.5 - 2e-5
     assert done[0].proof.chord_error <= 0.05
@@ -97,29 +101,29 @@ def test_points_read_from_the_file_are_clear_anywhere_on_earth(
 
 def test_dwells_speeds_and_names_go_along_where_there_is_a_place_for_them(tmp_path: Path) -> None:
     file = tmp_path / "path.csv"
-    export(PLANNED, file)
+    export(planned_yard(), file)
     rows = list(csv.DictReader(file.read_text().splitlines()))
     quay = next(row for row in rows if row["via"] == "quay & <pier>")
     assert (float(quay["x_m"]), float(quay["y_m"]), float(quay["dwell_s"])) == (60, 20, 2.5)
     assert float(quay["speed_mps"]) == 0.0
-    assert float(rows[-1]["time_s"]) == pytest.approx(PLANNED.trajectory.duration, abs=1e-6)
+    assert float(rows[-1]["time_s"]) == pytest.approx(planned_yard().trajectory.duration, abs=1e-6)
     assert "latitude" not in rows[0]
-    export(PLANNED, file, origin=ORIGIN)
+    export(planned_yard(), file, origin=ORIGIN)
     first = next(csv.DictReader(file.read_text().splitlines()))
     assert (float(first["latitude"]), float(first["longitude"])) == ORIGIN
 
 
 def test_a_longest_line_is_kept(tmp_path: Path) -> None:
     file = tmp_path / "path.csv"
-    export(PLANNED, file, spacing=3.0)
+    export(planned_yard(), file, spacing=3.0)
     rows = list(csv.DictReader(file.read_text().splitlines()))
     assert np.diff([float(row["distance_m"]) for row in rows]).max() <= 3.0 + 1e-6
 
 
 def test_json_holds_the_exact_curve(tmp_path: Path) -> None:
-    done = export(PLANNED, tmp_path / "path.json")
+    done = export(planned_yard(), tmp_path / "path.json")
     data = json.loads((tmp_path / "path.json").read_text())
-    assert np.array_equal(np.array(data["spans"]), PLANNED.path.spans)
+    assert np.array_equal(np.array(data["spans"]), planned_yard().path.spans)
     assert data["not_carried"] == list(done.lost) == []
     assert data["points"]["via"][0] == "start"
 
@@ -127,7 +131,7 @@ def test_json_holds_the_exact_curve(tmp_path: Path) -> None:
 def test_without_an_origin_a_format_in_degrees_is_refused_with_the_remedy(tmp_path: Path) -> None:
     for ending in (".plan", ".waypoints", ".geojson", ".kml", ".gpx"):
         with pytest.raises(OutputError, match="--origin LAT,LON"):
-            export(PLANNED, tmp_path / f"x{ending}")
+            export(planned_yard(), tmp_path / f"x{ending}")
     assert not list(tmp_path.iterdir())
 
 
@@ -154,22 +158,22 @@ def test_what_can_not_be_meant_is_refused_by_name(
     options: dict[str, Any], words: str, tmp_path: Path
 ) -> None:
     with pytest.raises(GeometryError, match=words):
-        export(PLANNED, tmp_path / "x.csv", **options)
+        export(planned_yard(), tmp_path / "x.csv", **options)
     with pytest.raises(OutputError, match="the endings are"):
-        export(PLANNED, tmp_path / "x.dxf")
+        export(planned_yard(), tmp_path / "x.dxf")
     with pytest.raises(OutputError, match="can't be written"):
-        export(PLANNED, tmp_path / "no" / "x.csv")
+        export(planned_yard(), tmp_path / "no" / "x.csv")
 
 
 def test_an_acceptance_radius_that_is_not_clear_is_refused_with_the_place(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"at \(.*beside tank; give a smaller acceptance radius"):
-        export(PLANNED, tmp_path / "x.plan", origin=ORIGIN, acceptance=200.0)
-    assert export(PLANNED, tmp_path / "x.plan", origin=ORIGIN).proof.acceptance is not None
+        export(planned_yard(), tmp_path / "x.plan", origin=ORIGIN, acceptance=200.0)
+    assert export(planned_yard(), tmp_path / "x.plan", origin=ORIGIN).proof.acceptance is not None
 
 
 def test_a_path_that_is_not_clear_is_never_written(tmp_path: Path) -> None:
     spans = np.array([[[0, 0], [30, 0], [60, 0], [90, 0]]], float)  # through the tank
-    broken = replace(PLANNED, path=ProvenPath(spans, []))
+    broken = replace(planned_yard(), path=ProvenPath(spans, []))
     with pytest.raises(OutputError, match="no straight lines near the path"):
         export(broken, tmp_path / "x.csv")
     assert not list(tmp_path.iterdir())

@@ -8,6 +8,7 @@ import struct
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -20,15 +21,14 @@ from viaspline.exports.export_path import export
 from viaspline.formats.local_frame import LocalFrame
 from viaspline.mission.model import Mission
 from viaspline.plan_mission import plan
+from viaspline.whole_plan import Plan
 
 ORIGIN = (47.3977, 8.5456)
 FRAME = LocalFrame(*ORIGIN)
 KNOWN = [{"name": "tank", "circle": {"center": [25, 0.5], "radius": 4}}]
 VIA = [{"at": [60, 20], "name": "quay & <pier>", "dwell_s": 3}]
-PLANNED = plan(
-    Mission.model_validate(
-        {"world": {"known": KNOWN}, "route": {"start": [0, 0], "via": VIA, "goal": [90, 0]}}
-    )
+MISSION = Mission.model_validate(
+    {"world": {"known": KNOWN}, "route": {"start": [0, 0], "via": VIA, "goal": [90, 0]}}
 )
 HEARD = """
 import json, sys, threading, time
@@ -52,10 +52,15 @@ print("ITEMS", json.dumps([items, len(found.geofence_items)]))
 """
 
 
+@cache
+def planned() -> Plan:
+    return plan(MISSION)
+
+
 def lines_of(file: Path, **options: Any) -> np.ndarray:
     """The points that a format in metres has of the same lines [m]."""
     table = file.with_suffix(".csv")
-    export(PLANNED, table, origin=ORIGIN, **options)
+    export(planned(), table, origin=ORIGIN, **options)
     rows = csv.DictReader(table.read_text().splitlines())
     return np.array([[float(row["x_m"]), float(row["y_m"])] for row in rows])
 
@@ -63,7 +68,7 @@ def lines_of(file: Path, **options: Any) -> np.ndarray:
 def test_pymavlinks_mission_loader_reads_the_way_points(tmp_path: Path) -> None:
     loading = pytest.importorskip("pymavlink.mavwp", reason="pymavlink isn't installed")
     file = tmp_path / "path.waypoints"
-    done = export(PLANNED, file, origin=ORIGIN)
+    done = export(planned(), file, origin=ORIGIN)
     loader = loading.MAVWPLoader()
     count = loader.load(str(file))
     read = [loader.wp(k) for k in range(count)]
@@ -92,7 +97,7 @@ def test_pymavlinks_mission_loader_reads_the_way_points(tmp_path: Path) -> None:
 )
 def test_mavsdk_imports_the_plan_as_it_was_meant(tmp_path: Path) -> None:
     file = tmp_path / "path.plan"
-    done = export(PLANNED, file, origin=ORIGIN)
+    done = export(planned(), file, origin=ORIGIN)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -118,7 +123,7 @@ def test_mavsdk_imports_the_plan_as_it_was_meant(tmp_path: Path) -> None:
 def test_gpxpy_reads_route_and_via_points(tmp_path: Path) -> None:
     gpxpy = pytest.importorskip("gpxpy", reason="gpxpy isn't installed")
     file = tmp_path / "path.gpx"
-    export(PLANNED, file, origin=ORIGIN)
+    export(planned(), file, origin=ORIGIN)
     read = gpxpy.parse(file.read_text())
     assert [mark.name for mark in read.waypoints] == ["start", "quay & <pier>", "goal"]
     assert read.waypoints[1].description == "dwell 3 s"
@@ -129,7 +134,7 @@ def test_gpxpy_reads_route_and_via_points(tmp_path: Path) -> None:
 
 def test_an_xml_parser_reads_line_and_placemarks(tmp_path: Path) -> None:
     file = tmp_path / "path.kml"
-    export(PLANNED, file, origin=ORIGIN, name="round\x00 <1>")
+    export(planned(), file, origin=ORIGIN, name="round\x00 <1>")
     space = {"k": "http://www.opengis.net/kml/2.2"}
     root = ET.parse(file).getroot()
     assert root.findtext("k:Document/k:name", namespaces=space) == "round <1>"
@@ -142,7 +147,7 @@ def test_an_xml_parser_reads_line_and_placemarks(tmp_path: Path) -> None:
 
 def test_geojson_keeps_to_its_standard(tmp_path: Path) -> None:
     file = tmp_path / "path.geojson"
-    export(PLANNED, file, origin=ORIGIN)
+    export(planned(), file, origin=ORIGIN)
     data = json.loads(file.read_text())
     line, *marks = data["features"]
     assert (data["type"], line["geometry"]["type"]) == ("FeatureCollection", "LineString")
@@ -154,7 +159,7 @@ def test_geojson_keeps_to_its_standard(tmp_path: Path) -> None:
 
 def test_a_yaml_parser_reads_a_path_whose_poses_look_along_it(tmp_path: Path) -> None:
     file = tmp_path / "path.path.yaml"
-    export(PLANNED, file)
+    export(planned(), file)
     assert file.read_text().startswith("# path: ")
     read = YAML(typ="safe").load(file.read_text())
     poses = read["poses"]
@@ -170,7 +175,7 @@ def test_a_yaml_parser_reads_a_path_whose_poses_look_along_it(tmp_path: Path) ->
     times = [one["header"]["stamp"]["sec"] + 1e-9 * one["header"]["stamp"]["nanosec"]
              for one in poses]  # fmt: skip
     assert all(a <= b for a, b in pairwise(times))
-    assert times[-1] == pytest.approx(PLANNED.trajectory.duration, abs=1e-6)
+    assert times[-1] == pytest.approx(planned().trajectory.duration, abs=1e-6)
 
 
 def test_stamps_are_by_the_clock_of_the_mission(tmp_path: Path) -> None:
@@ -189,8 +194,8 @@ def test_stamps_are_by_the_clock_of_the_mission(tmp_path: Path) -> None:
 def test_mcap_reads_one_message_that_holds_what_the_yaml_has(tmp_path: Path) -> None:
     reading = pytest.importorskip("mcap.reader", reason="mcap isn't installed")
     file, text = tmp_path / "path.mcap", tmp_path / "path.path.yaml"
-    export(PLANNED, file)
-    export(PLANNED, text)
+    export(planned(), file)
+    export(planned(), text)
     with file.open("rb") as stream:
         found = list(reading.make_reader(stream).iter_messages())
     assert len(found) == 1

@@ -17,11 +17,14 @@ from viaspline.machine.turns_on_spot import SpotTurning, corners, with_turns
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.limits import Station
 
-SQUARE = CardinalSpline([(0, 0), (4, 0), (4, 4), (0, 4)], tension=1.0)
+
+@pytest.fixture(scope="module")
+def square() -> CardinalSpline:
+    return CardinalSpline([(0, 0), (4, 0), (4, 4), (0, 4)], tension=1.0)
 
 
-def test_every_corner_of_a_polyline_is_found_with_its_angle() -> None:
-    at, angles = corners(SQUARE)
+def test_every_corner_of_a_polyline_is_found_with_its_angle(square: CardinalSpline) -> None:
+    at, angles = corners(square)
     assert at == pytest.approx([4.0, 8.0])
     assert angles == pytest.approx([math.pi / 2, math.pi / 2])
 
@@ -36,11 +39,13 @@ def test_a_wider_turn_takes_longer_and_steered_wheels_make_none(robot_of: Any) -
     assert SpotTurning.of(robot_of("ackermann")).time(1.0) == 0.0
 
 
-def test_a_robot_without_a_drive_turns_as_fast_as_its_yaw_rate_allows() -> None:
+def test_a_robot_without_a_drive_turns_as_fast_as_its_yaw_rate_allows(
+    square: CardinalSpline,
+) -> None:
     robot = RobotSpec(max_yaw_rate_degps=45)
-    (stop, _) = with_turns(SQUARE, SpotTurning.of(robot), [])
+    (stop, _) = with_turns(square, SpotTurning.of(robot), [])
     assert (stop.distance, stop.dwell) == (pytest.approx(4.0), pytest.approx(2.0))
-    assert with_turns(SQUARE, SpotTurning.of(RobotSpec()), []) == []
+    assert with_turns(square, SpotTurning.of(RobotSpec()), []) == []
 
 
 @given(
@@ -79,16 +84,18 @@ def test_a_body_that_keeps_its_heading_only_comes_to_rest(robot_of: Any) -> None
     assert turning.time(2.0) == turning.time(0.1) == pytest.approx(0.6)
 
 
-def test_a_stay_that_is_long_enough_serves_for_the_turn(robot_of: Any) -> None:
+def test_a_stay_that_is_long_enough_serves_for_the_turn(
+    square: CardinalSpline, robot_of: Any
+) -> None:
     turning = SpotTurning.of(robot_of("differential"))
-    stops = with_turns(SQUARE, turning, [Station(4.0, 60.0, "dock")])
+    stops = with_turns(square, turning, [Station(4.0, 60.0, "dock")])
     assert [(stop.distance, stop.name) for stop in stops] == [
         (pytest.approx(4.0), "dock"), (pytest.approx(8.0), "turn"),
     ]  # fmt: skip
-    short = with_turns(SQUARE, turning, [Station(4.0, 0.5, "dock")])
+    short = with_turns(square, turning, [Station(4.0, 0.5, "dock")])
     assert sum(s.dwell for s in short[:2]) == pytest.approx(turning.time(math.pi / 2))
 
 
-def test_corners_that_lie_behind_are_left_out(robot_of: Any) -> None:
-    stops = with_turns(SQUARE, SpotTurning.of(robot_of("differential")), [], start=5.0)
+def test_corners_that_lie_behind_are_left_out(square: CardinalSpline, robot_of: Any) -> None:
+    stops = with_turns(square, SpotTurning.of(robot_of("differential")), [], start=5.0)
     assert np.array([stop.distance for stop in stops]) == pytest.approx([8.0])

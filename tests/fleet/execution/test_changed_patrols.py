@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from itertools import combinations
 from typing import Any
 
@@ -30,8 +31,12 @@ def member(name: str, route: Any) -> FleetMember:
 
 
 PATROLS = patrol([0, 0], [20, 0]), patrol([10, 9], [10, -14])
-PLAN = vs.plan_fleet(fleet(*PATROLS))
 CROSSES = {"start": [4, 9], "goal": [4, -9]}
+
+
+@cache
+def planned() -> vs.FleetPlan:
+    return vs.plan_fleet(fleet(*PATROLS))
 
 
 class PatrolDrive:
@@ -85,14 +90,14 @@ class PatrolDrive:
 def goes_on(drive: PatrolDrive, names: tuple[str, ...] = ("r0", "r1")) -> bool:
     """Whether patrols drive several laps more, clear of all others."""
     before = {name: drive.come.get(name, 0.0) for name in names}
-    drive.until(drive.time + 5.0 * PLAN.patrols.period)  # type: ignore[union-attr]
+    drive.until(drive.time + 5.0 * planned().patrols.period)  # type: ignore[union-attr]
     laps = [(drive.come[name] - before[name]) / drive.lap[name] for name in names]
     return min(laps) > 3.0 and drive.least >= drive.separation - 1e-6
 
 
 @pytest.mark.parametrize("since", [3.0, 150.0])
 def test_a_robot_joins_patrols_and_they_go_on(since: float) -> None:
-    drive = PatrolDrive(PLAN)
+    drive = PatrolDrive(planned())
     drive.until(since)
     drive.nav = drive.nav.with_robot(member("new", CROSSES))
     assert goes_on(drive)
@@ -112,9 +117,9 @@ def test_a_robot_joins_patrols_on_curves_and_they_go_on(since: float) -> None:
 
 
 def test_a_robot_that_would_rest_in_a_patrols_way_does_not_join() -> None:
-    drive = PatrolDrive(PLAN)
+    drive = PatrolDrive(planned())
     drive.until(3.0)
-    there = np.asarray(PLAN.plans["r0"].path.at_distance(5.0))[:2].tolist()
+    there = np.asarray(planned().plans["r0"].path.at_distance(5.0))[:2].tolist()
     with pytest.raises(PlanningError):
         drive.nav.with_robot(member("new", {"start": [5, 9], "goal": there}))
     with pytest.raises(GeometryError, match="a patrol that never ends"):
@@ -123,7 +128,7 @@ def test_a_robot_that_would_rest_in_a_patrols_way_does_not_join() -> None:
 
 @pytest.mark.parametrize("time", [140.0, 150.0, 160.0])
 def test_a_patrol_is_sent_elsewhere_after_some_laps_and_the_other_goes_on(time: float) -> None:
-    drive = PatrolDrive(PLAN)
+    drive = PatrolDrive(planned())
     drive.until(time)
     assert drive.come["r0"] > 2.0 * drive.lap["r0"]
     drive.nav = drive.nav.stopping("r0")
@@ -171,14 +176,14 @@ def test_who_waits_for_a_dead_robot_goes_round_it_but_patrols() -> None:
 
 
 def test_a_plan_with_patrols_gets_a_robot_more_and_one_less() -> None:
-    more = vs.add_robot(PLAN, member("new", CROSSES))
+    more = vs.add_robot(planned(), member("new", CROSSES))
     assert more.served
-    assert PLAN.patrols is not None
+    assert planned().patrols is not None
     assert more.patrols is not None
-    assert more.patrols.laps == PLAN.patrols.laps
+    assert more.patrols.laps == planned().patrols.laps
     assert more.patrols.repeats_from >= more.plans["new"].trajectory.end_time
-    assert more.certificate.repeats == (more.patrols.repeats_from, PLAN.patrols.period)
-    assert more.alone["r0"] == PLAN.alone["r0"]
+    assert more.certificate.repeats == (more.patrols.repeats_from, planned().patrols.period)
+    assert more.alone["r0"] == planned().alone["r0"]
     drive = PatrolDrive(more)
     assert goes_on(drive)
     assert drive.come["new"] == pytest.approx(more.plans["new"].path.length)

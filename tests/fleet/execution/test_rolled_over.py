@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
 from itertools import combinations
 from typing import Any
 
@@ -29,13 +31,23 @@ def plan_of(*robots: dict[str, Any]) -> FleetPlan:
     return plan_fleet(Fleet.model_validate({"fleet": named}))
 
 
-PATROLS = plan_of(patrol([0, 0], [20, 0]), patrol([10, 9], [10, -14]))
-SLANTED = plan_of(patrol([0, 0], [20, 5]), patrol([10, 9], [10, -14]))
-MIXED = plan_of(
-    patrol([0, 0], [12, 0]),
-    patrol([6, 9], [6, -60]),
-    {"route": {"start": [3, 12], "goal": [3, -30]}, "rest": "leave"},
-)
+@cache
+def patrols() -> FleetPlan:
+    return plan_of(patrol([0, 0], [20, 0]), patrol([10, 9], [10, -14]))
+
+
+@cache
+def slanted() -> FleetPlan:
+    return plan_of(patrol([0, 0], [20, 5]), patrol([10, 9], [10, -14]))
+
+
+@cache
+def mixed_ones() -> FleetPlan:
+    return plan_of(
+        patrol([0, 0], [12, 0]),
+        patrol([6, 9], [6, -60]),
+        {"route": {"start": [3, 12], "goal": [3, -30]}, "rest": "leave"},
+    )
 
 
 def driven(plan: FleetPlan, periods: float, seed: int, lost: float, halting: float) -> Any:
@@ -97,8 +109,9 @@ def _nearest(plan: FleetPlan, come: dict[str, float]) -> float:
     )
 
 
-@pytest.mark.parametrize("plan", [PATROLS, MIXED], ids=["two patrols", "with one that ends"])
-def test_patrols_go_on_longer_than_their_plans(plan: FleetPlan) -> None:
+@pytest.mark.parametrize("made", [patrols, mixed_ones])
+def test_patrols_go_on_longer_than_their_plans(made: Callable[[], FleetPlan]) -> None:
+    plan = made()
     assert plan.patrols is not None
     come, least, nav = driven(plan, 9.0, 0, lost=0.0, halting=0.0)
     assert least >= plan.fleet.separation_m - 1e-6
@@ -114,7 +127,7 @@ def test_patrols_go_on_longer_than_their_plans(plan: FleetPlan) -> None:
 @settings(max_examples=5, deadline=None)
 @given(st.integers(0, 10_000), st.booleans())
 def test_patrols_that_halt_and_are_not_heard_stay_apart_and_go_on(seed: int, mixed: bool) -> None:
-    plan = MIXED if mixed else PATROLS
+    plan = mixed_ones() if mixed else patrols()
     assert plan.patrols is not None
     come, least, _ = driven(plan, 8.0, seed, lost=0.2, halting=0.002)
     assert least >= plan.fleet.separation_m - 1e-6
@@ -123,10 +136,13 @@ def test_patrols_that_halt_and_are_not_heard_stay_apart_and_go_on(seed: int, mix
 
 
 @pytest.mark.parametrize(
-    ("plan", "gone"), [(PATROLS, "r1"), (SLANTED, "r1"), (SLANTED, "r0")],
+    ("made", "gone"), [(patrols, "r1"), (slanted, "r1"), (slanted, "r0")],
     ids=["square", "slanted", "slanted, the other"],
 )  # fmt: skip
-def test_a_patrol_that_is_taken_out_does_not_hold_the_others_up(plan: FleetPlan, gone: str) -> None:
+def test_a_patrol_that_is_taken_out_does_not_hold_the_others_up(
+    made: Callable[[], FleetPlan], gone: str
+) -> None:
+    plan = made()
     assert plan.patrols is not None
     nav = FleetNavigator(plan, period=STEP_S).without(gone)
     (left,) = set(plan.plans) - {gone}

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -16,15 +19,25 @@ from viaspline.fleet.patrols.driven_laps import (
     set_out,
 )
 from viaspline.mission.model import Mission
-from viaspline.planner import plan
+from viaspline.planner import Plan, plan
 
 ROUTE = {"start": [0, 0], "via": [{"at": [9, 0], "dwell_s": 3}, [9, 9]], "closed": True}
-LAP = plan(Mission.model_validate({"route": ROUTE}))
-SMOOTH = plan(Mission.model_validate({"route": ROUTE, "robot": {"max_jerk_mps3": 1.0}}))
+Lap = Callable[[], Plan]
 
 
-@pytest.mark.parametrize("lap", [LAP, SMOOTH], ids=["plain", "with a limit of the jerk"])
-def test_every_lap_is_the_first_one_again_from_rest_to_rest(lap) -> None:  # type: ignore[no-untyped-def]
+@cache
+def plain() -> Plan:
+    return plan(Mission.model_validate({"route": ROUTE}))
+
+
+@cache
+def smooth() -> Plan:
+    return plan(Mission.model_validate({"route": ROUTE, "robot": {"max_jerk_mps3": 1.0}}))
+
+
+@pytest.mark.parametrize("made", [plain, smooth], ids=["plain", "with a limit of the jerk"])
+def test_every_lap_is_the_first_one_again_from_rest_to_rest(made: Lap) -> None:
+    lap = made()
     three = driven_laps(lap, 3)
     law, once = three.trajectory, lap.trajectory
     assert law.duration == pytest.approx(3.0 * once.duration, rel=1e-6)
@@ -39,8 +52,9 @@ def test_every_lap_is_the_first_one_again_from_rest_to_rest(lap) -> None:  # typ
 
 
 @settings(max_examples=30, deadline=None)
-@given(st.floats(0.0, 50.0), st.integers(1, 4), st.sampled_from([LAP, SMOOTH]))
-def test_a_law_comes_again_every_period(waits: float, laps: int, lap) -> None:  # type: ignore[no-untyped-def]
+@given(st.floats(0.0, 50.0), st.integers(1, 4), st.sampled_from([plain, smooth]))
+def test_a_law_comes_again_every_period(waits: float, laps: int, made: Lap) -> None:
+    lap = made()
     law = lap.trajectory.delayed(7.0)
     period = law.duration + waits
     path = driven_laps(lap, laps).path
@@ -57,20 +71,21 @@ def test_a_law_comes_again_every_period(waits: float, laps: int, lap) -> None:  
 
 
 def test_a_lap_that_takes_longer_than_the_period_is_refused() -> None:
+    lap = plain()
     with pytest.raises(GeometryError, match="longer"):
-        repeated_law(LAP.trajectory, np.array([0.0, LAP.path.length]), 1.0)
+        repeated_law(lap.trajectory, np.array([0.0, lap.path.length]), 1.0)
 
 
 def test_what_a_law_waits_at_its_start_is_left_out() -> None:
-    law = LAP.trajectory.waiting(0.0, 12.0)
+    law = plain().trajectory.waiting(0.0, 12.0)
     begun = set_out(law)
     assert begun.start_time == 12.0
-    assert begun.duration == pytest.approx(LAP.trajectory.duration)
+    assert begun.duration == pytest.approx(plain().trajectory.duration)
     assert set_out(begun).times.tolist() == begun.times.tolist()
 
 
 def test_points_of_a_law_are_put_on_nodes_that_they_are_as_good_as_on() -> None:
-    law = LAP.trajectory
+    law = plain().trajectory
     nodes = np.sort(np.unique(law.distances) + 1e-9)
     put = on_nodes(law, nodes)
     assert np.isin(put.distances, nodes).all()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -17,20 +19,23 @@ from viaspline.planning.turning.strip_body import strip_body
 KEPT = 0.2
 TRUCK = ((-0.4, -0.5), (1.6, -0.5), (1.6, 0.5), (-0.4, 0.5))
 KITE = ((-0.7, 0.1), (0.2, -0.4), (1.1, -0.1), (0.1, 0.6))
-INSIDE = vs.World([vs.Obstacle(circle={"center": (7.0, 0.0), "radius": 20.0})])
+HOLDS_ALL = vs.Obstacle(circle={"center": (7.0, 0.0), "radius": 20.0})
 
 Outline = tuple[tuple[float, float], ...]
 
 
 def reached(
-    outline: Outline | None, places: Floats, world: vs.World = INSIDE, closed: bool = False
+    outline: Outline | None,
+    places: Floats,
+    known: Sequence[vs.Obstacle] = (HOLDS_ALL,),
+    closed: bool = False,
 ) -> tuple[Floats, Floats, Floats]:
     """How far to the left and to the right of each place, by the kernel [m]; the curve's spans."""
     body = strip_body(Requirements(radius=0.3, clearance=KEPT, footprint=outline))
     normals = strip_normals(places, closed)
     spans = strip_spans(places, normals, np.full((2, 2), np.nan), closed)
     beside, half = np.empty(len(places)), np.empty(len(places))
-    swept_sides(world.packed, body, closed, places, normals, spans, beside, half)
+    swept_sides(vs.World(known).packed, body, closed, places, normals, spans, beside, half)
     return half - KEPT + beside, half - KEPT - beside, spans
 
 
@@ -81,7 +86,7 @@ def test_round_a_circle_a_body_reaches_as_far_everywhere() -> None:
 
 def test_far_from_everything_a_body_is_the_disc_about_it_and_a_disc_is_one_anywhere() -> None:
     places = np.column_stack((np.linspace(0.0, 20.0, 21), np.sin(np.arange(21.0))))
-    left, right, _ = reached(TRUCK, places, vs.World([]))
+    left, right, _ = reached(TRUCK, places, known=())
     np.testing.assert_allclose([left, right], np.hypot(1.6, 0.5))
     left, right, _ = reached(None, places)
     np.testing.assert_allclose([left, right], 0.3)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -30,25 +31,27 @@ def problem(world: World, start: Any, goal: Any) -> RouteProblem:
     return RouteProblem(Router(world, REQUIRED, places), *places, NO_BARRIERS, active)
 
 
-ROW = World([disc(10.0 * k, 0.1, 2.0) for k in range(1, 6)])
+@pytest.fixture(scope="module")
+def row() -> World:
+    return World([disc(10.0 * k, 0.1, 2.0) for k in range(1, 6)])
 
 
-def test_a_row_of_discs_is_passed_as_the_tangents_say() -> None:
-    found = ExactRoute().lay(problem(ROW, (0, 0), (60, 0)))
+def test_a_row_of_discs_is_passed_as_the_tangents_say(row: World) -> None:
+    found = ExactRoute().lay(problem(row, (0, 0), (60, 0)))
     assert isinstance(found, Found)
     leaves = np.arccos(2.5 / np.hypot(10, 0.1))  # between the foot of a tangent and the start
     low = 2 * 10.0 * np.sin(leaves) + 40.0
     assert low < found.cost < low + 2 * 2.5 * 0.5
 
 
-def test_more_obstacles_than_allowed_prove_nothing() -> None:
-    told = ExactRoute(max_met=4).lay(problem(ROW, (0, 0), (60, 0)))
+def test_more_obstacles_than_allowed_prove_nothing(row: World) -> None:
+    told = ExactRoute(max_met=4).lay(problem(row, (0, 0), (60, 0)))
     assert told == GaveUp(("the tangents of 5 obstacles, of at most 4",))
 
 
-def test_few_obstacles_are_left_to_the_others_where_that_is_said() -> None:
-    assert isinstance(ExactRoute(more_than=5).lay(problem(ROW, (0, 0), (60, 0))), GaveUp)
-    assert isinstance(ExactRoute(more_than=4).lay(problem(ROW, (0, 0), (60, 0))), Found)
+def test_few_obstacles_are_left_to_the_others_where_that_is_said(row: World) -> None:
+    assert isinstance(ExactRoute(more_than=5).lay(problem(row, (0, 0), (60, 0))), GaveUp)
+    assert isinstance(ExactRoute(more_than=4).lay(problem(row, (0, 0), (60, 0))), Found)
 
 
 def test_maps_have_no_tangents() -> None:
@@ -56,8 +59,8 @@ def test_maps_have_no_tangents() -> None:
     assert isinstance(ExactRoute().lay(problem(world, (1, 1), (8, 8))), GaveUp)
 
 
-def test_what_gains_too_little_is_left() -> None:
-    asked = problem(ROW, (0, 0), (60, 0))
+def test_what_gains_too_little_is_left(row: World) -> None:
+    asked = problem(row, (0, 0), (60, 0))
     length = ExactRoute().lay(asked).cost
     assert isinstance(ExactRoute(least_gain=0.01).lay(asked, 1.009 * length), GaveUp)
     assert isinstance(ExactRoute(least_gain=0.01).lay(asked, 1.011 * length), Found)

@@ -1,6 +1,7 @@
 """Turns into given headings: to the side, and as wide, as is driven soonest."""
 
 import math
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,11 @@ from viaspline.planning.turning.wide_turns import WideTurns
 PACE = Pace(speed=2.0, accel=1.0, brake=1.0, lateral=0.5)
 TURNS = WideTurns(PACE, least=0.5, sharpest=0.5, roomy=0.5)
 NEEDS = Requirements(radius=0.5, clearance=0.5)
-OPEN = vs.World([])
+
+
+@cache
+def open_world() -> vs.World:
+    return vs.World([])
 
 
 def row(*places: tuple[float, float], leaves: float = math.nan, comes: float = math.nan) -> Bends:
@@ -32,8 +37,8 @@ def row(*places: tuple[float, float], leaves: float = math.nan, comes: float = m
 
 def test_a_robot_that_stops_turns_narrowly_into_its_heading() -> None:
     bends = row((0.0, 0.0), (60.0, 0.0), comes=math.radians(60))
-    stops = soonest_end_turns(TURNS, bends, OPEN, NEEDS, (False, True))
-    goes_on = soonest_end_turns(TURNS, bends, OPEN, NEEDS, (False, False))
+    stops = soonest_end_turns(TURNS, bends, open_world(), NEEDS, (False, True))
+    goes_on = soonest_end_turns(TURNS, bends, open_world(), NEEDS, (False, False))
     assert stops is not None
     assert goes_on is not None
     assert stops.length < goes_on.length - 0.3
@@ -50,11 +55,11 @@ def test_no_side_and_no_width_between_is_much_sooner(
 ) -> None:
     goal = far * math.cos(towards), far * math.sin(towards)
     bends, rests = row((0.0, 0.0), goal, leaves=leaves, comes=comes), (begins, ends)
-    found = soonest_end_turns(TURNS, bends, OPEN, NEEDS, rests)
+    found = soonest_end_turns(TURNS, bends, open_world(), NEEDS, rests)
     assert found is not None
     time = leg_time(found.spans, PACE, rests)
     for sided in with_sides(bends):
-        wide = TURNS.narrowed(sided, OPEN, NEEDS)
+        wide = TURNS.narrowed(sided, open_world(), NEEDS)
         assert wide is None or time <= 1.003 * leg_time(wide.spans, PACE, rests)
 
 

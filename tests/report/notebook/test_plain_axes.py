@@ -1,6 +1,8 @@
 import io
 import subprocess
 import sys
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -54,34 +56,59 @@ CART = vs.Obstacle(
 AMONG = MISSION.model_copy(
     update={"world": MISSION.world.model_copy(update={"known": (CART,), "unseen": ()})}
 )
-PLAN, FLOWN, FLEET_PLAN = vs.plan(MISSION), vs.plan(FLIGHT), vs.plan_fleet(PAIR)
-CROWD_PLAN = vs.plan_fleet(CROWD)
 CELLS = np.random.default_rng(1).random((30, 50)) < 0.2
-SHOWN: dict[str, Any] = {
-    "mission": MISSION,
-    "mission among what moves": AMONG,
-    "mission in space": FLIGHT,
-    "plan": PLAN,
-    "plan among what moves": vs.plan(AMONG),
-    "plan in space": FLOWN,
-    "run": vs.simulate(MISSION, plan=PLAN),
-    "flight": vs.fly(FLOWN),
-    "fleet": PAIR,
-    "fleet plan": FLEET_PLAN,
-    "fleet run": vs.simulate_fleet(PAIR, plan=FLEET_PLAN),
-    "crowd": CROWD,
-    "plan of a crowd": CROWD_PLAN,
-    "run of a crowd": vs.simulate_fleet(CROWD, plan=CROWD_PLAN),
-    "path": PLAN.path,
-    "path in space": FLOWN.path,
-    "spline": vs.CardinalSpline([(0, 0), (3, 2), (5, -1), (8, 0)]),
-    "spline of one coordinate": vs.CardinalSpline([(0,), (3,), (1,)]),
-    "law": PLAN.trajectory,
-    "world": PLAN.world,
-    "world with nothing in it": vs.World(),
-    "grid": vs.Grid(CELLS, 0.2, (1, 2, 0.2)),
-    "grid with nothing in it": vs.Grid(np.zeros((2, 2), bool), 1.0),
+
+
+@cache
+def planned() -> vs.Plan:
+    return vs.plan(MISSION)
+
+
+@cache
+def flown() -> Any:
+    return vs.plan(FLIGHT)
+
+
+@cache
+def fleet_plan() -> vs.FleetPlan:
+    return vs.plan_fleet(PAIR)
+
+
+@cache
+def crowd_plan() -> vs.FleetPlan:
+    return vs.plan_fleet(CROWD)
+
+
+SHOWN: dict[str, Callable[[], Any]] = {
+    "mission": lambda: MISSION,
+    "mission among what moves": lambda: AMONG,
+    "mission in space": lambda: FLIGHT,
+    "plan": planned,
+    "plan among what moves": lambda: vs.plan(AMONG),
+    "plan in space": flown,
+    "run": lambda: vs.simulate(MISSION, plan=planned()),
+    "flight": lambda: vs.fly(flown()),
+    "fleet": lambda: PAIR,
+    "fleet plan": fleet_plan,
+    "fleet run": lambda: vs.simulate_fleet(PAIR, plan=fleet_plan()),
+    "crowd": lambda: CROWD,
+    "plan of a crowd": crowd_plan,
+    "run of a crowd": lambda: vs.simulate_fleet(CROWD, plan=crowd_plan()),
+    "path": lambda: planned().path,
+    "path in space": lambda: flown().path,
+    "spline": lambda: vs.CardinalSpline([(0, 0), (3, 2), (5, -1), (8, 0)]),
+    "spline of one coordinate": lambda: vs.CardinalSpline([(0,), (3,), (1,)]),
+    "law": lambda: planned().trajectory,
+    "world": lambda: planned().world,
+    "world with nothing in it": lambda: vs.World(),
+    "grid": lambda: vs.Grid(CELLS, 0.2, (1, 2, 0.2)),
+    "grid with nothing in it": lambda: vs.Grid(np.zeros((2, 2), bool), 1.0),
 }
+
+
+@cache
+def shown(name: str) -> Any:
+    return SHOWN[name]()
 
 
 def labels_of(axes: Axes) -> list[str]:
@@ -96,7 +123,7 @@ def has_ink(data: bytes) -> bool:
 @pytest.mark.parametrize("name", SHOWN)
 def test_a_value_is_drawn_on_plain_axes_and_its_legend_names_all_of_it_once(name: str) -> None:
     axes = Figure(figsize=(6, 5)).add_subplot()
-    assert SHOWN[name].plot(axes) is axes
+    assert shown(name).plot(axes) is axes
     assert axes.get_xlabel()
     assert axes.get_ylabel()
     named = labels_of(axes)
@@ -112,21 +139,21 @@ def test_a_value_is_drawn_on_plain_axes_and_its_legend_names_all_of_it_once(name
 
 @pytest.mark.parametrize("name", SHOWN)
 def test_the_picture_of_a_notebook_is_the_same_every_time(name: str) -> None:
-    data = SHOWN[name]._repr_png_()
+    data = shown(name)._repr_png_()
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     assert has_ink(data)
-    assert SHOWN[name]._repr_png_() == data
+    assert shown(name)._repr_png_() == data
 
 
 @pytest.mark.parametrize("name", ["mission", "plan", "run", "plan in space", "fleet plan", "grid"])
 def test_a_map_is_at_equal_scales_and_shows_the_whole_value(name: str) -> None:
     axes = Figure(figsize=(9, 4)).add_subplot()
-    SHOWN[name].plot(axes)
+    shown(name).plot(axes)
     axes.get_figure(root=True).draw_without_rendering()  # type: ignore[union-attr]
     ends = axes.transData.transform([(0, 0), (1, 0), (0, 1)])
     assert ends[1, 0] - ends[0, 0] == pytest.approx(ends[2, 1] - ends[0, 1])
-    if hasattr(SHOWN[name], "path"):
-        points = SHOWN[name].path.sample(1.0)[2]
+    if hasattr(shown(name), "path"):
+        points = shown(name).path.sample(1.0)[2]
         (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
         assert x0 <= points[:, 0].min()
         assert points[:, 0].max() <= x1
@@ -137,7 +164,7 @@ def test_a_map_is_at_equal_scales_and_shows_the_whole_value(name: str) -> None:
 def test_what_axes_show_already_stays_in_view() -> None:
     axes = Figure().add_subplot()
     vs.CardinalSpline([(500, 500), (600, 500)]).plot(axes)
-    PLAN.plot(axes)
+    planned().plot(axes)
     assert axes.get_xlim()[0] <= 10
     assert axes.get_xlim()[1] >= 600
     assert axes.get_ylim()[1] >= 500
@@ -146,15 +173,15 @@ def test_what_axes_show_already_stays_in_view() -> None:
 def test_any_canvas_and_a_part_of_a_figure_will_do() -> None:
     figure = Figure()
     FigureCanvasSVG(figure)
-    PLAN.plot(figure.add_subplot())
+    planned().plot(figure.add_subplot())
     left, right = Figure().subfigures(1, 2)
-    SHOWN["run"].plot(left.add_subplot())
-    FLEET_PLAN.plot(right.add_subplot())
+    shown("run").plot(left.add_subplot())
+    fleet_plan().plot(right.add_subplot())
     assert labels_of(left.axes[0])
 
 
 def test_axes_in_three_dimensions_show_flights_in_perspective() -> None:
-    for value in (FLOWN, SHOWN["flight"], FLOWN.path):
+    for value in (flown(), shown("flight"), flown().path):
         axes = Figure().add_subplot(projection="3d")
         value.plot(axes)
         assert "path" in labels_of(axes) or "curve" in labels_of(axes)
@@ -164,9 +191,9 @@ def test_axes_in_three_dimensions_show_flights_in_perspective() -> None:
 
 @pytest.mark.parametrize("junk", [5, "ax", [], Figure()])
 def test_what_is_no_axes_is_refused(junk: Any) -> None:
-    for value in SHOWN.values():
+    for name in SHOWN:
         with pytest.raises(vs.GeometryError, match="not Axes"):
-            value.plot(junk)
+            shown(name).plot(junk)
 
 
 def test_pyplot_is_touched_only_without_axes(tmp_path: Path) -> None:

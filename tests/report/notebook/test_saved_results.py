@@ -1,5 +1,7 @@
 import json
 import os
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -33,22 +35,47 @@ PAIR = vs.Fleet.model_validate(
         ]
     }
 )
-PLAN, FLOWN, FLEET_PLAN = vs.plan(MISSION), vs.plan(FLIGHT), vs.plan_fleet(PAIR)
 FLEET_FILES = {"fleet.json", "fleet.png", "courses.npz", "planned-fleet.yaml"}
 PLAN_FILES = {"plan.json", "path.csv", "plan.png", "planned-mission.yaml"}
-SAVED: dict[str, tuple[Any, set[str]]] = {
-    "plan": (PLAN, PLAN_FILES),
-    "flight plan": (FLOWN, PLAN_FILES),
-    "run": (vs.simulate(MISSION, plan=PLAN), PLAN_FILES | {"run.json", "run.csv", "run.png"}),
-    "flight": (vs.fly(FLOWN), PLAN_FILES | {"run.json", "run.csv", "run.png"}),
-    "fleet plan": (FLEET_PLAN, FLEET_FILES | {"a", "b"}),
-    "fleet run": (vs.simulate_fleet(PAIR, plan=FLEET_PLAN), {"run.json"}),
+
+
+@cache
+def planned() -> vs.Plan:
+    return vs.plan(MISSION)
+
+
+@cache
+def flown() -> Any:
+    return vs.plan(FLIGHT)
+
+
+@cache
+def fleet_plan() -> vs.FleetPlan:
+    return vs.plan_fleet(PAIR)
+
+
+SAVED: dict[str, tuple[Callable[[], Any], set[str]]] = {
+    "plan": (planned, PLAN_FILES),
+    "flight plan": (flown, PLAN_FILES),
+    "run": (
+        lambda: vs.simulate(MISSION, plan=planned()),
+        PLAN_FILES | {"run.json", "run.csv", "run.png"},
+    ),
+    "flight": (lambda: vs.fly(flown()), PLAN_FILES | {"run.json", "run.csv", "run.png"}),
+    "fleet plan": (fleet_plan, FLEET_FILES | {"a", "b"}),
+    "fleet run": (lambda: vs.simulate_fleet(PAIR, plan=fleet_plan()), {"run.json"}),
 }
+
+
+@cache
+def saved(name: str) -> tuple[Any, set[str]]:
+    made, files = SAVED[name]
+    return made(), files
 
 
 @pytest.mark.parametrize("name", SAVED)
 def test_what_is_saved_is_said_and_the_same_every_time(name: str, tmp_path: Path) -> None:
-    value, files = SAVED[name]
+    value, files = saved(name)
     folder = tmp_path / "deep" / "patrol"
     written = value.save(folder)
     assert {path.name for path in folder.iterdir()} == files
@@ -67,18 +94,18 @@ def contents(written: list[Path], folder: Path) -> dict[Path, bytes]:
 
 @pytest.mark.parametrize("name", SAVED)
 def test_what_is_saved_does_not_depend_on_the_folder(name: str, tmp_path: Path) -> None:
-    value, _ = SAVED[name]
+    value, _ = saved(name)
     one, other = tmp_path / "one", tmp_path / "another"
     assert contents(value.save(one), one) == contents(value.save(other), other)
 
 
 def test_a_plan_is_called_as_is_asked(tmp_path: Path) -> None:
-    PLAN.save(tmp_path, name="round of the yard")
+    planned().save(tmp_path, name="round of the yard")
     assert (
         json.loads((tmp_path / "plan.json").read_text())["mission"]["name"] == "round of the yard"
     )
     with pytest.raises(vs.GeometryError, match="name is of the class"):
-        PLAN.save(tmp_path, name=5)  # type: ignore[arg-type]
+        planned().save(tmp_path, name=5)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("command", ["plan", "run"])
@@ -87,17 +114,17 @@ def test_the_command_line_writes_the_same_files(command: str, tmp_path: Path) ->
     file.write_text(TEXT)
     done = CliRunner().invoke(cli, [command, str(file), "--out", str(out), "--quiet"])
     assert done.exit_code == 0, done.output
-    made = SAVED["plan" if command == "plan" else "run"][0]
+    made = saved("plan" if command == "plan" else "run")[0]
     written = made.save(tmp_path / "api", name="patrol")
     assert {path.name for path in out.iterdir()} - {"timing.json"} == {p.name for p in written}
     for path in written:
         assert path.read_bytes() == (out / path.name).read_bytes(), path.name
-    assert vs.load_plan(out) == PLAN
+    assert vs.load_plan(out) == planned()
 
 
 def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    for value, _ in SAVED.values():
+    for value, _ in map(saved, SAVED):
         with pytest.raises(vs.OutputError, match="is a file, not a folder"):
             value.save(tmp_path / "file" / "patrol")
         with pytest.raises(vs.GeometryError, match="path is of the class"):
@@ -105,21 +132,21 @@ def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
     if os.geteuid() != 0:
         tmp_path.chmod(0o500)
         with pytest.raises(vs.OutputError, match="can't be written"):
-            PLAN.save(tmp_path / "patrol")
+            planned().save(tmp_path / "patrol")
 
 
 def test_a_single_file_is_for_those_who_write_such_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for value, _ in SAVED.values():
+    for value, _ in map(saved, SAVED):
         if not isinstance(value, vs.Plan | vs.SpatialPlan):
             with pytest.raises(vs.OutputError, match="isn't written as such a file; give a folder"):
                 value.save(tmp_path / "patrol.kml")
 
     with pytest.raises(vs.OutputError, match="origin"):
-        PLAN.save(tmp_path / "patrol.kml")
+        planned().save(tmp_path / "patrol.kml")
     for name in ("patrol.plan", "patrol.geojson", "patrol.csv", "patrol.path.yaml"):
-        (written,) = PLAN.save(tmp_path / name, origin=(47.4, 8.5))
+        (written,) = planned().save(tmp_path / name, origin=(47.4, 8.5))
         assert written.stat().st_size > 200
     (tmp_path / "old.csv").mkdir()  # a folder, whatever it is called
-    assert PLAN.save(tmp_path / "old.csv")
+    assert planned().save(tmp_path / "old.csv")

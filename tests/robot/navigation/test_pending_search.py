@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigation.pending_search import (
     FIRST_STAGE,
@@ -17,21 +19,27 @@ from viaspline.world.world import World
 
 ROCK = Obstacle(circle={"center": (5, 0), "radius": 1}, name="rock")
 POST = Obstacle(circle={"center": (9, 1), "radius": 1}, name="post")
-SO_FAR = SearchSoFar(0.1, 0.0, World([ROCK]), {})
 DOUBT = SideInDoubt((5.0, 0.0), "left", ("reflex", "planned"), 40.0)
-PENDING = PendingSearch(2.0, World([ROCK]), ("rock",), (1, 0), SO_FAR, 3.0, 4.0, DOUBT)
 
 
-def test_a_search_goes_on_where_it_was_while_nothing_new_is_seen() -> None:
-    assert PENDING.with_new(World()) is PENDING
+@pytest.fixture
+def pending() -> PendingSearch:
+    so_far = SearchSoFar(0.1, 0.0, World([ROCK]), {})
+    return PendingSearch(2.0, World([ROCK]), ("rock",), (1, 0), so_far, 3.0, 4.0, DOUBT)
 
 
-def test_a_search_that_meets_something_new_begins_anew_with_all_that_is_in_the_way() -> None:
-    both = PENDING.with_new(World([POST]))
+def test_a_search_goes_on_where_it_was_while_nothing_new_is_seen(pending: PendingSearch) -> None:
+    assert pending.with_new(World()) is pending
+
+
+def test_a_search_that_meets_something_new_begins_anew_with_all_that_is_in_the_way(
+    pending: PendingSearch,
+) -> None:
+    both = pending.with_new(World([POST]))
     assert both.obstacles.names == both.names == ("rock", "post")
     assert both.begin_with == FIRST_STAGE
     assert both.again < both.since  # it doesn't wait
-    assert both.so_far is SO_FAR
+    assert both.so_far is pending.so_far
     assert both.doubt is None
 
 

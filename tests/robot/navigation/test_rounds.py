@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import tracemalloc
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -40,7 +41,11 @@ def disc(x: float, y: float, radius: float, name: str) -> dict[str, Any]:
     return {"name": name, "circle": {"center": [x, y], "radius": radius}}
 
 
-BESIDE = (np.asarray(plan(patrol(1)).path.at_distance(36.0)) + np.array([0.0, 0.2])).tolist()
+@cache
+def beside() -> tuple[float, float]:
+    """A place a little beside the path [m]."""
+    x, y = plan(patrol(1)).path.at_distance(36.0)
+    return float(x), float(y) + 0.2
 
 
 def statuses(run: Run) -> list[str]:
@@ -131,14 +136,14 @@ def test_what_is_found_on_one_lap_is_gone_round_on_all_of_them(
 
 
 def test_the_same_find_on_a_round_gives_the_same_drive() -> None:
-    one, again = (simulate(patrol(4, [disc(*BESIDE, 1.0, "rock")])) for _ in range(2))
+    one, again = (simulate(patrol(4, [disc(*beside(), 1.0, "rock")])) for _ in range(2))
     assert one.replans
     assert one.path.spans.tobytes() == again.path.spans.tobytes()
     assert one.events == again.events
 
 
 def test_a_find_is_gone_round_once_and_then_is_part_of_every_lap() -> None:
-    run = simulate(patrol(6, [disc(*BESIDE, 1.0, "rock")]))
+    run = simulate(patrol(6, [disc(*beside(), 1.0, "rock")]))
     assert run.reached
     assert len(run.replans) == 1
     joints = np.flatnonzero(np.hypot(*(run.path.spans[:, 0] - run.path.spans[0, 0]).T) < 1e-9)
@@ -218,7 +223,7 @@ def test_what_is_kept_grows_with_what_is_known_and_not_with_the_drive() -> None:
 
 
 def test_a_logbook_has_what_the_steps_handed_out() -> None:
-    mission = patrol(5, [disc(*BESIDE, 1.0, "rock")])
+    mission = patrol(5, [disc(*beside(), 1.0, "rock")])
     run, nav, book = simulate(mission, step=0.1), Navigator(mission), Logbook()
     sensor = RangeSensor(mission.world.unseen, 10.0)
     for tick in range(10_000):
@@ -237,7 +242,7 @@ def test_a_search_that_has_no_time_on_a_round_goes_on_at_rest_and_serves_every_l
 ) -> None:
     monkeypatch.setattr(deadline, "STEP_WORK_S", 1e-3)
     monkeypatch.setattr(deadline, "STANDING_WORK_S", 1e-3)
-    run = simulate(patrol(5, [disc(*BESIDE, 1.0, "rock")]))
+    run = simulate(patrol(5, [disc(*beside(), 1.0, "rock")]))
     assert run.reached, run.reason
     assert run.certificate.holds
     assert "braked" in [event.kind for event in run.events]

@@ -1,5 +1,6 @@
 import dataclasses
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -33,7 +34,11 @@ DISC = Requirements(radius=0.5, clearance=0.1)
 CAR = Requirements(
     radius=0.9, clearance=0.1, footprint=((-1.0, -0.9), (3.2, -0.9), (3.2, 0.9), (-1.0, 0.9))
 )
-OPEN = World([], bounds=(-40, -40, 40, 40))
+
+
+@cache
+def open_world():
+    return World([], bounds=(-40, -40, 40, 40))
 
 
 @kernel
@@ -88,53 +93,53 @@ def test_in_the_open_it_is_little_longer_than_the_way_of_dubins():
         x, y = rng.uniform(-20, 20, 2)
         heading = rng.uniform(-math.pi, math.pi)
         start, goal = Pose(0, 0, 0), Goal(x, y, (heading,))
-        chain = find_poses(OPEN, DISC, RHO, 0.4, start, goal)
-        is_sound(chain, OPEN, DISC, start, goal)
+        chain = find_poses(open_world(), DISC, RHO, 0.4, start, goal)
+        is_sound(chain, open_world(), DISC, start, goal)
         least = dubins_length(x, y, 0.0, heading, RHO)
         assert least - 1e-6 <= chain.length < 1.08 * least + 0.5
 
 
 def test_a_goal_of_any_heading_is_come_to_straight():
     start, goal = Pose(0, 0, 0), Goal(15, 8)
-    chain = find_poses(OPEN, DISC, RHO, RAMP, start, goal)
-    is_sound(chain, OPEN, DISC, start, goal)
+    chain = find_poses(open_world(), DISC, RHO, RAMP, start, goal)
+    is_sound(chain, open_world(), DISC, start, goal)
     assert chain.length < 1.02 * dubins_length(15, 8, 0.0, chain.end.heading, RHO)
 
 
 def test_of_the_allowed_headings_one_is_taken():
     start, goal = Pose(0, 0, 0), Goal(12, 0, (math.pi, 0.1, -1.5))
-    chain = find_poses(OPEN, DISC, RHO, RAMP, start, goal)
-    is_sound(chain, OPEN, DISC, start, goal)
+    chain = find_poses(open_world(), DISC, RHO, RAMP, start, goal)
+    is_sound(chain, open_world(), DISC, start, goal)
     assert chain.end.heading == 0.1
 
 
-WALLS = World(
-    [box(5, -20, 6, 3), box(5, 4.6, 6, 20), box(14, -20, 15, -4), box(14, -2.4, 15, 20)],
-    bounds=(-20, -20, 30, 20),
-)
+@cache
+def walls():
+    parts = [box(5, -20, 6, 3), box(5, 4.6, 6, 20), box(14, -20, 15, -4), box(14, -2.4, 15, 20)]
+    return World(parts, bounds=(-20, -20, 30, 20))
 
 
 def test_a_disc_gets_through_two_doors():
     start, goal = Pose(-10, 0, 0), Goal(22, 5, (1.0,))
-    chain = find_poses(WALLS, DISC, RHO, RAMP, start, goal)
-    is_sound(chain, WALLS, DISC, start, goal)
+    chain = find_poses(walls(), DISC, RHO, RAMP, start, goal)
+    is_sound(chain, walls(), DISC, start, goal)
 
 
-YARD = World(
-    [box(x, y, x + 2.0, y + 5.0) for x in (0, 2.6, 8.2, 10.8) for y in (0, 14)],
-    bounds=(-12, -1, 25, 20),
-)
+@cache
+def yard():
+    parked = [box(x, y, x + 2.0, y + 5.0) for x in (0, 2.6, 8.2, 10.8) for y in (0, 14)]
+    return World(parked, bounds=(-12, -1, 25, 20))
 
 
 def test_a_car_drives_out_of_one_bay_and_into_another():
     start, goal = Pose(6.4, 1.5, math.pi / 2), Goal(7.0, 15.5, (math.pi / 2,))
-    chain = find_poses(YARD, CAR, RHO, RAMP, start, goal)
-    is_sound(chain, YARD, CAR, start, goal)
+    chain = find_poses(yard(), CAR, RHO, RAMP, start, goal)
+    is_sound(chain, yard(), CAR, start, goal)
 
 
 def test_backing_out_of_a_bay_is_not_asked_for():
     start, inside = Pose(-8, 9.5, 0.0), Pose(6.4, 17, math.pi / 2)
-    closed = World([*YARD.obstacles, box(4, 19.1, 9, 19.5)], bounds=YARD.bounds)
+    closed = World([*yard().obstacles, box(4, 19.1, 9, 19.5)], bounds=yard().bounds)
     chain = find_poses(closed, CAR, RHO, RAMP, start, Goal(6.4, 15.0, (math.pi / 2,)))
     is_sound(chain, closed, CAR, start, Goal(6.4, 15.0, (math.pi / 2,)))
     assert gap_of(closed, CAR, np.array([[6.4, 15.0]]), [math.pi / 2]) > CAR.kept
@@ -151,16 +156,16 @@ def test_backing_out_of_a_bay_is_not_asked_for():
 
 def test_the_same_task_gives_the_same_bytes():
     start, goal = Pose(-10, 0, 0), Goal(22, 5)
-    one, two = (find_poses(WALLS, DISC, RHO, RAMP, start, goal) for _ in range(2))
+    one, two = (find_poses(walls(), DISC, RHO, RAMP, start, goal) for _ in range(2))
     assert one.spans.tobytes() == two.spans.tobytes()
 
 
 def test_a_mirrored_world_has_a_way_of_about_the_same_length():
     mirrored = World(
-        [Obstacle(polygon=[(x, -y) for x, y in o.polygon]) for o in WALLS.obstacles],
-        bounds=WALLS.bounds,
+        [Obstacle(polygon=[(x, -y) for x, y in o.polygon]) for o in walls().obstacles],
+        bounds=walls().bounds,
     )
-    one = find_poses(WALLS, DISC, RHO, RAMP, Pose(-10, 0, 0), Goal(22, 5, (1.0,)))
+    one = find_poses(walls(), DISC, RHO, RAMP, Pose(-10, 0, 0), Goal(22, 5, (1.0,)))
     two = find_poses(mirrored, DISC, RHO, RAMP, Pose(-10, 0, 0), Goal(22, -5, (-1.0,)))
     assert one.length == pytest.approx(two.length, rel=0.03)
 
@@ -168,16 +173,16 @@ def test_a_mirrored_world_has_a_way_of_about_the_same_length():
 def test_a_row_of_places_joins_with_headings_that_fit():
     start = Pose(-10, 0, 0)
     goals = [Goal(5.5, 3.8), Goal(14.5, -3.2), Goal(22, 5, (1.0,))]
-    chains = find_row(WALLS, DISC, RHO, RAMP, [start], goals, WorkBudget(9.0))
+    chains = find_row(walls(), DISC, RHO, RAMP, [start], goals, WorkBudget(9.0))
     assert not isinstance(chains, NotFound)
     for chain, goal in zip(chains, goals, strict=True):
-        is_sound(chain, WALLS, DISC, start, goal)
+        is_sound(chain, walls(), DISC, start, goal)
         start = chain.end
 
 
 def test_a_row_says_which_place_cannot_be_come_to():
     goals = [Goal(0, 5), Goal(5.5, 0), Goal(22, 5)]
-    found = find_row(WALLS, DISC, RHO, RAMP, [Pose(-10, 0, 0)], goals, WorkBudget(9.0))
+    found = find_row(walls(), DISC, RHO, RAMP, [Pose(-10, 0, 0)], goals, WorkBudget(9.0))
     assert isinstance(found, NotFound)
     assert (found.reason, found.goal) == (Reason.GOAL_TAKEN, 1)
 
@@ -247,7 +252,7 @@ def row_in_steps(limit, finished):
     for step in range(1, 500):
         needs = dataclasses.replace(DISC, budget=WorkBudget(limit, finished=dict(finished)))
         try:
-            return find_row(WALLS, needs, RHO, RAMP, [start], goals, WorkBudget(9.0)), step
+            return find_row(walls(), needs, RHO, RAMP, [start], goals, WorkBudget(9.0)), step
         except SpentBudgetError:
             assert needs.budget.spent <= limit
             assert needs.budget.has_gained
@@ -268,7 +273,7 @@ def test_a_step_leaves_what_the_step_before_had_of_a_search_as_it_was():
     needs = dataclasses.replace(DISC, budget=WorkBudget(0.05))
     start, goals = Pose(-10, 0, 0), [Goal(5.5, 3.8), Goal(14.5, -3.2), Goal(22, 5, (1.0,))]
     with pytest.raises(SpentBudgetError):
-        find_row(WALLS, needs, RHO, RAMP, [start], goals, WorkBudget(9.0))
+        find_row(walls(), needs, RHO, RAMP, [start], goals, WorkBudget(9.0))
     before = needs.budget.finished
     rows = [row_in_steps(0.05, before) for _ in range(2)]
     (first, steps), (second, again) = rows
@@ -279,7 +284,7 @@ def test_a_step_leaves_what_the_step_before_had_of_a_search_as_it_was():
 
 def body_problem(requirements):
     places = np.array([(0.0, 0.0), (20.0, 0.0)])
-    return next(pose_problems(OPEN, requirements, RHO, RAMP, places, SEARCH_EFFORTS[-1]))
+    return next(pose_problems(open_world(), requirements, RHO, RAMP, places, SEARCH_EFFORTS[-1]))
 
 
 def test_a_move_of_a_body_that_many_discs_cover_is_dearer():

@@ -29,7 +29,7 @@ from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 RADIUS, TOP, STEP, SECONDS = 0.25, 1.5, 0.1, 14.0
-PATH = Path([[(0, 0), (4, 0), (8, 1), (12, 1)]], [])
+SPANS = [[(0, 0), (4, 0), (8, 1), (12, 1)]]
 LIMITS = Limits(max_speed=2.0, max_accel=1.0)
 ANYWHERE = Foresight(top_speed=TOP, accel=1e6)
 
@@ -77,19 +77,20 @@ def by_lidar(moving: MovingObstacles) -> Look:
 
 def speeds_at_contact(moving: MovingObstacles, look: Look) -> tuple[list[float], float]:
     """How fast the robot is whenever something touches it, and how far it comes."""
+    path = Path(SPANS, [])
     law, found = braking(0.0, 0.0, 1.0, 0.0), []
     for k in range(round(SECONDS / STEP)):
         now = STEP * k
         here, speed, _ = (float(value) for value in law.state_at(now))
-        upper = retime(PATH, LIMITS, start=here, start_speed=speed, start_time=now)
-        premises = look(np.asarray(PATH.at_distance(here)), now, k)
-        found_law, proven = passive_law(PATH, upper, premises, RADIUS, (1.0, 1.0), now, 1.0)
+        upper = retime(path, LIMITS, start=here, start_speed=speed, start_time=now)
+        premises = look(np.asarray(path.at_distance(here)), now, k)
+        found_law, proven = passive_law(path, upper, premises, RADIUS, (1.0, 1.0), now, 1.0)
         law = found_law if proven else stop_of(law, now, 1.0)
         times = now + np.linspace(0.0, STEP, 21)
         distances, speeds, _ = law.state_at(times)
-        touched = moving.distance(PATH.at_distance(distances), times) < RADIUS
+        touched = moving.distance(path.at_distance(distances), times) < RADIUS
         found += speeds[touched].tolist()
-        if here > PATH.length - 0.1:
+        if here > path.length - 0.1:
             break
     return found, here
 
@@ -116,4 +117,4 @@ def test_it_arrives_where_what_moves_stays_away(eyes: Callable[[MovingObstacles]
     moving = MovingObstacles([bouncing([(3, 9), (9, 9)], 1.0)])
     speeds, come = speeds_at_contact(moving, eyes(moving))
     assert not speeds
-    assert come > PATH.length - 0.2
+    assert come > Path(SPANS, []).length - 0.2
