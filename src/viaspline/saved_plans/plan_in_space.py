@@ -5,11 +5,13 @@ Tested through ``saved_plans/test_load_plan``.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from viaspline.curve.height_certificate import certify_heights
+from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.saved_plans.law_within_limits import (
@@ -31,6 +33,9 @@ from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import along_limits, retime_in_space
 from viaspline.trajectory.limits import Station
 
+StopsOn = Callable[[SpatialProblem, Path], Iterable[Station]]
+"""Where the robot of a problem has to stop on a path."""
+
 
 def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
     """The plan of a file, of which nothing is believed that can be proven.
@@ -43,6 +48,40 @@ def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
         SavedPlanError: It isn't a plan of the mission, its path isn't clear or too high or low, or
             its proof or its time law isn't what the file says.
     """
+    if not mission.world.moving:
+        return flight_as_if_still(plan, mission)
+    alone = _alone(plan, mission, stops_of, comes_again=False)
+    free = alone.trajectory
+    law = law_within_limits(plan, alone.path, free, along_limits(alone.limits), free.stations)
+    proof = proof_past_moving(alone, law)
+    check_moving_proof(plan, proof)
+    return replace(alone, trajectory=law, moving=proof, waits=saved_waits(plan))
+
+
+def flight_as_if_still(
+    plan: PlanFile, mission: Mission, stops_on: StopsOn = stops_of, *, comes_again: bool = False
+) -> SpatialPlan:
+    """The plan of a file, of which all is proven but how far it is from what moves.
+
+    Args:
+        plan: The file.
+        mission: As it was planned.
+        stops_on: Where its robot has to stop on a path.
+        comes_again: Whether all of its laps are the first one again, which alone is proven.
+
+    Raises:
+        SavedPlanError: As ``plan_in_space``.
+    """
+    alone = _alone(plan, mission, stops_on, comes_again=comes_again)
+    free = alone.trajectory
+    law = law_of_file(plan, alone.path, free, along_limits(alone.limits), free.stations)
+    return replace(alone, trajectory=law)
+
+
+def _alone(
+    plan: PlanFile, mission: Mission, stops_on: StopsOn, *, comes_again: bool
+) -> SpatialPlan:
+    """The path of a file, proven, with the fastest law along it."""
     problem = spatial_problem_of(mission)
     path = plan.path()
     if path.dimension != 3:
@@ -53,10 +92,12 @@ def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
         raise plan.wrong("airborne_m isn't a part of the path")
     airborne = (float(ends[0]), float(ends[1]))
     _check_upright(plan, problem, airborne, path.length)
+    shown = _first_lap(plan, path, problem.laps) if comes_again else path
+    flown = (0.0, shown.length) if comes_again else airborne
     try:
-        certificate = whole_proof(problem, path, airborne)
-        u = np.asarray(path.parameter(airborne)).tolist()
-        heights = certify_heights(path.section(*u), problem.world)
+        certificate = whole_proof(problem, shown, flown)
+        u = np.asarray(shown.parameter(flown)).tolist()
+        heights = certify_heights(shown.section(*u), problem.world)
     except GeometryError as error:
         raise plan.wrong(f"the path can't be proven: {error}") from None
     said = plan.number("certificate", "clearance_m")
@@ -65,27 +106,26 @@ def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
     if not (certificate.holds and heights.holds):
         raise plan.wrong("the path doesn't keep the clearance or the heights of its mission")
     yaw = headings_of(problem, path)
-    stops = tuple(stops_of(problem, path))
     law = retime_in_space(
-        path, problem.limits, stops, yaw, zones=problem.zones, start_time=mission.route.depart_s
-    )
-    alone = SpatialPlan(
+        path, problem.limits, tuple(stops_on(problem, path)), yaw, zones=problem.zones,
+        start_time=mission.route.depart_s,
+    )  # fmt: skip
+    return SpatialPlan(
         mission, problem.world, path, certificate, heights, saved_ledger(plan, 3), airborne,
         problem.limits, yaw, law,
     )  # fmt: skip
-    if mission.world.moving:
-        return _past_moving(plan, alone, stops)
-    law = law_of_file(plan, path, law, along_limits(problem.limits), stops)
-    return replace(alone, trajectory=law)
 
 
-def _past_moving(plan: PlanFile, alone: SpatialPlan, stops: tuple[Station, ...]) -> SpatialPlan:
-    """The plan with the law of the file, proven again past what moves."""
-    path, free = alone.path, alone.trajectory
-    law = law_within_limits(plan, path, free, along_limits(alone.limits), stops)
-    proof = proof_past_moving(alone, law)
-    check_moving_proof(plan, proof)
-    return replace(alone, trajectory=law, moving=proof, waits=saved_waits(plan))
+def _first_lap(plan: PlanFile, path: Path, laps: int) -> Path:
+    """The first lap of a path, of which all others are the same.
+
+    Raises:
+        SavedPlanError: They aren't.
+    """
+    spans, a_lap = path.spans, len(path.spans) // laps
+    if not np.array_equal(np.concatenate([spans[:a_lap]] * laps), spans):
+        raise plan.wrong("the laps of the path aren't the first one again")
+    return Path(spans[:a_lap], vias=[])
 
 
 def _points(problem: SpatialProblem) -> list[AskedPoint]:

@@ -123,6 +123,56 @@ ASKED: dict[str, dict[str, Any]] = {
             go("b", [20, -20, 10.5], [20, 20, 10.5], robot="drone"),
         ],
     },
+    "flights past what moves": {
+        "separation_m": 2,
+        "world": {
+            "known": [
+                {"ball": {"center": [9, 9, 10], "radius": 1}},
+                {
+                    "name": "balloon", "ball": {"center": [0, 0, 0], "radius": 1.5},
+                    "motion": {"from": [8, -16, 10], "velocity_mps": [0, 4, 0]},
+                },
+                {"box": {"min": [19, 30, 0], "max": [21, 31, 20]}},
+            ],
+        },
+        "robots": {"drone": DRONE},
+        "fleet": [
+            go("a", [0, 0, 10], [40, 0, 10], robot="drone", depart_s=1),
+            go("b", [20, -20, 10.5], [20, 20, 10.5], robot="drone", rest="leave"),
+        ],
+    },
+    "flights that never end": {
+        "separation_m": 1,
+        "world": {"known": [{"ball": {"center": [12, 12, 11], "radius": 1}}]},
+        "robots": {"drone": DRONE},
+        "fleet": [
+            {
+                "name": "p", "robot": "drone",
+                "route": {
+                    "start": [0, 0, 10], "closed": True,
+                    "via": [{"at": [20, 0, 10], "dwell_s": 2, "look_at": [20, 9, 9]},
+                            [20, 20, 12]],
+                },
+            },
+            {
+                "name": "q", "robot": "drone",
+                "route": {"start": [10, -5, 10], "via": [[10, 25, 11]], "closed": True},
+            },
+            go("b", [30, 10, 10], [-10, 12, 11], robot="drone"),
+        ],
+    },
+    "flights in the order that is shortest": {
+        "robots": {"drone": DRONE},
+        "fleet": [
+            {
+                "name": "p", "robot": "drone",
+                "route": {
+                    "start": [0, 0, 9], "via": [[20, 0, 9], [5, 3, 9], [12, -3, 12]],
+                    "order": "shortest", "goal": [30, 0, 9],
+                },
+            },
+        ],
+    },
     "on a lattice": {
         "separation_m": 0.3,
         "world": {"bounds": [-1, -1, 7, 7]},
@@ -309,8 +359,19 @@ CHANGES: list[tuple[str, str, Callable[[Any], None], str]] = [
     ("patrols", "fleet.json", nudge(-9.0, "patrols", "repeats_from_s"), "hasn't arrived|before"),
     ("patrols", "fleet.json", nudge(2e3, "patrols", "planned_until_s"), "where it was before"),
     ("patrols", "fleet.json", nudge(-1, "patrols", "robots", 0, "laps_planned"), "faster|before"),
-    ("flights", "fleet.json", put({}, "patrols"), "aren't loaded again"),
+    ("flights", "fleet.json", put({}, "patrols"), "patrols|period_s"),
     ("flights", "courses.npz", sooner, "isn't that of its plan"),
+    ("flights past what moves", "a/plan.json", nudge(0.1, "certificate", "moving", "clearance_m"),
+     "what moves"),
+    ("flights past what moves", "courses.npz", sooner, "isn't that of its plan"),
+    ("flights that never end", "fleet.json", half_a_period, "patrols|where it was before"),
+    ("flights that never end", "fleet.json", nudge(1, "patrols", "robots", 0, "laps_a_period"),
+     "was before"),
+    ("flights that never end", "fleet.json", nudge(-1, "patrols", "robots", 0, "laps_planned"),
+     "aren't the first|faster|before"),
+    ("flights that never end", "p/plan.json", nudge(0.5, "certificate", "clearance_m"),
+     "of clearance"),
+    ("flights that never end", "courses.npz", faster_alone, "faster than its limits"),
 ]  # fmt: skip
 
 

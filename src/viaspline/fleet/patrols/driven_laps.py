@@ -15,6 +15,7 @@ from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
 from viaspline.planning.plan_drive import repeated
 from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import retime_in_space
@@ -54,7 +55,7 @@ def driven_laps(lap: AnyPlan, laps: int) -> AnyPlan:
     if isinstance(lap, SpatialPlan):
         problem = replace(spatial_problem_of(asked), laps=laps)
         yaw = headings_of(problem, path)
-        stops = tuple(_halting(stops_of(problem, path), path, laps))
+        stops = tuple(flown_stops_on_laps(problem, path))
         law = retime_in_space(path, lap.limits, stops, yaw, zones=zones)
         airborne = (0.0, path.length)
         return replace(lap, mission=mission, path=path, airborne=airborne, yaw=yaw, trajectory=law)
@@ -71,6 +72,16 @@ def stops_on_laps(path: Path, mission: Mission) -> list[Station]:
         mission: With so many laps.
     """
     return _halting(stations(path, mission.robot), path, mission.route.laps)
+
+
+def flown_stops_on_laps(problem: SpatialProblem, path: Path) -> list[Station]:
+    """Where a patrol in space hovers: at its stations, and at its start after each lap.
+
+    Args:
+        problem: With so many laps.
+        path: All of them.
+    """
+    return _halting(stops_of(problem, path), path, problem.laps)
 
 
 def _halting(stops: Iterable[Station], path: Path, laps: int) -> list[Station]:

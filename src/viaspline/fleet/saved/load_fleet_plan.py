@@ -19,16 +19,11 @@ from viaspline.fleet.saved.saved_patrols import checked_patrols, for_ever
 from viaspline.fleet.saved.saved_robot import SavedRobots, fleet_beside
 from viaspline.formats.asked_for import AskedFleet, asked_fleet
 from viaspline.handed_in import check_kind
-from viaspline.planner import Plan
 from viaspline.saved_plans.law_within_limits import PROVEN_OFF_M, TIMED_OFF
 from viaspline.saved_plans.load_plan import FLEET_NAME
 
 PLANNED_FLEET_NAME: Final = "planned-fleet.yaml"
 COURSES_NAME: Final = "courses.npz"
-NOT_IN_SPACE: Final = (
-    "holds the plan of flights past what moves or of patrols, which aren't loaded again; call "
-    "plan_fleet with the fleet's file, which makes the same plan again"
-)
 
 
 def load_fleet_plan(folder: str | Path, fleet: AskedFleet | None = None) -> FleetPlan:
@@ -38,8 +33,7 @@ def load_fleet_plan(folder: str | Path, fleet: AskedFleet | None = None) -> Flee
     ``load_plan`` does it, and all robots are proven apart again, over continuous time: courses and
     laws at their nodes are held against the paths and laws of the robots' plans, crossings and who
     passes first are found again, and that patrols come again. So it equals what was saved, or is
-    refused. Flights past what moves and flights that never end aren't loaded, which is told. Why a
-    robot isn't served is a record, and taken as it stands.
+    refused. Why a robot isn't served is a record, and taken as it stands.
 
     Args:
         folder: With ``fleet.json``, or that file itself.
@@ -69,14 +63,11 @@ def load_fleet_plan(folder: str | Path, fleet: AskedFleet | None = None) -> Flee
         file = file / FLEET_NAME
     asked = asked_fleet(fleet_beside(file, PLANNED_FLEET_NAME) if fleet is None else fleet)
     told = FleetFile.read(file, asked)
-    if asked.is_spatial and (asked.world.moving or "patrols" in told.file.data):
-        raise SavedPlanError(file, NOT_IN_SPACE)
     plans = SavedRobots(asked, told).plans()
     laws = SavedLaws.read(file.with_name(COURSES_NAME))
     laws.check(asked, plans)
     record = laws.record
-    planar = {name: one for name, one in plans.items() if isinstance(one, Plan)}
-    patrols = checked_patrols(told, asked, planar)
+    patrols = checked_patrols(told, asked, plans)
     certificate = certify_fleet(record.courses, record.laws, asked.separation_m)
     certificate = replace(certificate, repeats=for_ever(patrols))
     _check_proof(told, certificate)

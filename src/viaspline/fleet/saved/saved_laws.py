@@ -17,7 +17,7 @@ from viaspline.bounded_file import FileKind, read_bytes
 from viaspline.errors import SavedPlanError
 from viaspline.fleet.courses import FleetCourses, courses_along, fleet_path
 from viaspline.fleet.fleet_laws import static_laws
-from viaspline.fleet.patrols.driven_laps import on_nodes, stops_on_laps
+from viaspline.fleet.patrols.driven_laps import flown_stops_on_laps, on_nodes, stops_on_laps
 from viaspline.fleet.relaid_fleet import driven_alone
 from viaspline.fleet.saved.course_record import CourseRecord
 from viaspline.fleet.timing.rides import rides_of
@@ -29,6 +29,7 @@ from viaspline.planner import Plan
 from viaspline.saved_plans.law_within_limits import PROVEN_OFF_M
 from viaspline.saved_plans.plan_file import REMEDY
 from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.trajectory.retime import retime
 
@@ -167,6 +168,8 @@ def _alone(member: FleetMember, plan: Plan | SpatialPlan) -> Plan | SpatialPlan:
     zones = plan.mission.world.speed_zones
     if isinstance(plan, SpatialPlan):
         stops = plan.trajectory.stations
+        if member.mission.route.is_patrol:
+            stops = tuple(flown_stops_on_laps(spatial_problem_of(plan.mission), plan.path))
         law = retime_in_space(plan.path, plan.limits, stops, plan.yaw, zones=zones)
     elif member.mission.route.is_patrol:
         at_rest, limits = stops_on_laps(plan.path, plan.mission), limits_of(plan.mission.robot)

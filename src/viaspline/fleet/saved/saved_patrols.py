@@ -10,11 +10,11 @@ from typing import Final
 
 import numpy as np
 
+from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.patrols.driven_laps import seams_of
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.saved.fleet_file import FleetFile
 from viaspline.mission.fleet.fleet import Fleet
-from viaspline.planner import Plan
 from viaspline.trajectory.trajectory import Trajectory
 
 SAME: Final = 1e-6
@@ -22,7 +22,7 @@ SAME: Final = 1e-6
 
 
 def checked_patrols(
-    told: FleetFile, fleet: Fleet, plans: Mapping[str, Plan]
+    told: FleetFile, fleet: Fleet, plans: Mapping[str, AnyPlan]
 ) -> FleetPatrols | None:
     """What never ends of a fleet, if it comes again as is said.
 
@@ -58,7 +58,7 @@ def checked_patrols(
     return patrols
 
 
-def _comes_again(plan: Plan, patrols: FleetPatrols, name: str) -> bool:
+def _comes_again(plan: AnyPlan, patrols: FleetPatrols, name: str) -> bool:
     """Whether a patrol is, from when it sets out on, a round farther after each period."""
     laps, law = plan.mission.route.laps, plan.trajectory
     path, rounds = plan.path, patrols.laps[name]

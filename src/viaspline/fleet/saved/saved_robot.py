@@ -12,8 +12,9 @@ from pathlib import Path
 from viaspline.bounded_file import is_there
 from viaspline.errors import SavedPlanError
 from viaspline.fleet.among_moving import proven_among
-from viaspline.fleet.patrols.driven_laps import stops_on_laps
+from viaspline.fleet.patrols.driven_laps import flown_stops_on_laps, stops_on_laps
 from viaspline.fleet.saved.fleet_file import FleetFile
+from viaspline.fleet.space.timed_past_moving import past_moving
 from viaspline.fleet.still_world import without_motion
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.model import Mission
@@ -21,8 +22,9 @@ from viaspline.planner import Plan
 from viaspline.planning.routing.visit_order import ordered
 from viaspline.saved_plans.law_within_limits import check_moving_proof
 from viaspline.saved_plans.plan_file import PlanFile
-from viaspline.saved_plans.plan_in_space import plan_in_space
+from viaspline.saved_plans.plan_in_space import flight_as_if_still
 from viaspline.saved_plans.planar_plan import planar_plan
+from viaspline.space.spatial_order import ordered_in_space
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.world.world import World
 
@@ -49,8 +51,9 @@ class SavedRobots:
         return dict(self._each())
 
     def _each(self) -> Iterator[tuple[str, Plan | SpatialPlan]]:
-        still = without_motion(self.fleet)
-        shared = None if still.is_spatial else World.known(still.members[0].mission)
+        flies = self.fleet.is_spatial
+        still = self.fleet if flies else without_motion(self.fleet)
+        shared = None if flies else World.known(still.members[0].mission)
         for member in still.members:
             path = self.told.plan_of(member.name)
             if path is None:
@@ -69,12 +72,12 @@ class SavedRobots:
         """The plan of one robot.
 
         Args:
-            member: The robot, in a world without what moves.
+            member: The robot, in the plane in a world without what moves.
             file: Its plan.
             shared: That world, packed; None in space.
         """
         if shared is None:
-            return plan_in_space(file, member.mission)
+            return self._flight(member, file)
         asked = member.mission
         world = shared if asked.route.corridor is None else World.known(asked)
         mission = self._as_planned(member, file, world)
@@ -91,6 +94,27 @@ class SavedRobots:
         check_moving_proof(file, among.moving_certificate)
         return among
 
+    def _flight(self, member: FleetMember, file: PlanFile) -> SpatialPlan:
+        """The plan of one robot in space."""
+        mission = ordered_in_space(member.mission)
+        if mission.route.is_patrol:
+            found = flight_as_if_still(
+                file, self._with_laps(mission, member.name), flown_stops_on_laps, comes_again=True
+            )
+        else:
+            found = flight_as_if_still(file, mission)
+        if not self.fleet.world.moving:
+            return found
+        among = past_moving(member, found)
+        assert among.moving is not None  # it was just proven
+        check_moving_proof(file, among.moving)
+        return among
+
+    def _with_laps(self, mission: Mission, name: str) -> Mission:
+        """The mission of a patrol with the laps that are planned of it."""
+        route = mission.route.model_copy(update={"laps": self.told.laps(name)})
+        return mission.model_copy(update={"route": route})
+
     def _as_planned(self, member: FleetMember, file: PlanFile, world: World) -> Mission:
         """The mission of a robot as its path was laid: its order, tension and laps are settled."""
         mission = ordered(member.mission, world)
@@ -99,10 +123,7 @@ class SavedRobots:
             tension = tuple(said) if isinstance(said, list) else said
             spline = mission.spline.model_copy(update={"tension": tension, "slack": None})
             mission = mission.model_copy(update={"spline": spline})
-        if not mission.route.is_patrol:
-            return mission
-        route = mission.route.model_copy(update={"laps": self.told.laps(member.name)})
-        return mission.model_copy(update={"route": route})
+        return self._with_laps(mission, member.name) if mission.route.is_patrol else mission
 
 
 def fleet_beside(file: Path, name: str) -> Path:

@@ -194,8 +194,6 @@ def _plans(timed: TimedFleet) -> dict[str, AnyPlan]:
         return plans
     members = {one.name: one for one in ways.members}
     return {
-        name: past_moving(members[name], plan, ways.moving)
-        if isinstance(plan, SpatialPlan)
-        else plan
+        name: past_moving(members[name], plan) if isinstance(plan, SpatialPlan) else plan
         for name, plan in plans.items()
     }

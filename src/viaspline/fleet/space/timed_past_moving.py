@@ -5,7 +5,7 @@ Tested through ``fleet/space/test_ways_past_moving``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Final
 
@@ -64,7 +64,7 @@ def _proven(ways: WaysPastMoving, serve: Serve, out: Mapping[int, object]) -> Ti
             assert isinstance(plan, SpatialPlan)
             if plan.trajectory.end_time + hold_of(member) > watched:
                 return None
-            proof = past_moving(member, plan, ways.moving).moving
+            proof = past_moving(member, plan).moving
             assert proof is not None
             if not proof.holds:
                 names = [one.name for one in ways.moving]
@@ -88,21 +88,19 @@ def sooner_past_moving(
     members = {one.name: one for one in ways.members}
     for name, plan in sooner.plans().items():
         assert isinstance(plan, SpatialPlan)
-        proof = past_moving(members[name], plan, ways.moving).moving
+        proof = past_moving(members[name], plan).moving
         if proof is None or not proof.holds:
             return timed
     return sooner
 
 
-def past_moving(
-    member: FleetMember, plan: SpatialPlan, moving: Sequence[MovingSolid]
-) -> SpatialPlan:
+def past_moving(member: FleetMember, plan: SpatialPlan) -> SpatialPlan:
     """A robot's plan with what is proven of it and of what moves.
 
     Args:
         member: The robot.
         plan: With its law by the clock of the fleet.
-        moving: What moves, until the end of that at least.
     """
-    proof = proven_beside(plan.path, plan.trajectory, hold_of(member), plan.mission, moving)
-    return replace(plan, moving=proof)
+    law, hold = plan.trajectory, hold_of(member)
+    moving = MovingSolid.all_of(plan.mission, law.start_time, law.end_time + hold)
+    return replace(plan, moving=proven_beside(plan.path, law, hold, plan.mission, moving))
