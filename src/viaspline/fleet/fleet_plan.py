@@ -119,10 +119,7 @@ class FleetPlan(ShownValue, MovingValue, SavedValue, ComparedByValue):
         """
         plans = {name: one for name, one in self.plans.items() if isinstance(one, Plan)}
         if len(plans) < len(self.plans):
-            raise GeometryError(
-                "this is a fleet in space, and only robots in the plane are led off their paths "
-                "here; plan the whole fleet anew with plan_fleet"
-            )
+            raise GeometryError("this is a fleet in space; 'plans' has the plans of its robots")
         return plans
 
     @property

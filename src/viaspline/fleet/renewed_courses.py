@@ -34,11 +34,11 @@ def renewed_courses(
         [9.0, 8.0]
     """
     names = tuple(plans)
-    fresh = courses_of({names[k]: plans[names[k]] for k in changed.tolist()}, separation).packed
+    fresh = courses_of({names[k]: plans[names[k]] for k in changed.tolist()}, separation)
     at = {robot: k for k, robot in enumerate(changed.tolist())}
-    parts = [
-        (fresh, at[robot]) if robot in at else (before.packed, robot) for robot in range(len(names))
-    ]
+    own = [(fresh, at[robot]) if robot in at else (before, robot) for robot in range(len(names))]
+    parts = [(courses.packed, k) for courses, k in own]
+    bodies = [courses.bodies[k] for courses, k in own if courses.bodies is not None]
     slices = [(packed, slice(packed.first[k], packed.first[k + 1])) for packed, k in parts]
 
     def joined(key: str) -> Floats:
@@ -54,4 +54,5 @@ def renewed_courses(
             bow=joined("bow"),
             reach=np.array([packed.reach[k] for packed, k in parts]),
         ),
+        np.array(bodies) if bodies else None,
     )

@@ -95,8 +95,8 @@ def test_a_navigator_grants_ways_and_refuses_to_send_robots_elsewhere(planned: F
     reports = [vs.ProgressReport(name, 0.0, 0.0) for name in ("a", "b", "c")]
     commands, nav = nav.step(reports, 0.0)
     assert commands["a"].granted > 0.0
-    with pytest.raises(GeometryError, match="plan a fleet in space anew"):
-        nav.with_robot(FleetMember("d", planned.fleet.members[2].mission))
+    with pytest.raises(GeometryError, match="there is a robot 'c' already"):
+        nav.with_robot(FleetMember("c", planned.fleet.members[2].mission))
 
 
 def test_plans_that_are_led_off_their_paths_are_in_the_plane(planned: FleetPlan) -> None:

@@ -8,11 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, rounds_of
 from viaspline.fleet.execution.fleet_orders import index_of
 from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
 from viaspline.fleet.execution.left_fleet import fleet_without
 from viaspline.fleet.execution.ways_from_rest import check_member, laid_from_rest
+from viaspline.fleet.execution.ways_in_the_air import laid_from_hover
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_plan import FleetPlan
@@ -20,11 +22,12 @@ from viaspline.fleet.laying.resting_places import RestingPlaces, rests_of
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.precedences import precedences_of
+from viaspline.fleet.space.hover_places import hovers_of
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.handed_in import check_kind
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
-from viaspline.planner import Plan
+from viaspline.space.spatial_plan import SpatialPlan
 
 
 def add_robot(plan: FleetPlan, member: FleetMember) -> FleetPlan:
@@ -55,7 +58,7 @@ def add_robot(plan: FleetPlan, member: FleetMember) -> FleetPlan:
         True
     """
     check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
-    check_member(member)
+    check_member(member, flies=plan.is_spatial)
     if member.name in {one.name for one in plan.fleet.members}:
         raise GeometryError(f"there is a robot {member.name!r} already; give another name")
     return _with(plan, member, (*plan.fleet.members, member))
@@ -83,7 +86,7 @@ def reroute_robot(plan: FleetPlan, member: FleetMember) -> FleetPlan:
         50.0
     """
     check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
-    check_member(member)
+    check_member(member, flies=plan.is_spatial)
     names = tuple(one.name for one in plan.fleet.members)
     members = list(plan.fleet.members)
     members[index_of(names, member.name)] = member
@@ -119,7 +122,7 @@ def remove_robot(plan: FleetPlan, name: str) -> FleetPlan:
     driven = _driven(plan)
     if name in plan.names:
         driven = fleet_without(driven, plan.names.index(name))
-    plans = {one: it for one, it in plan.planar_plans.items() if one != name}
+    plans = {one: it for one, it in plan.plans.items() if one != name}
     return _planned(plan, members, driven, plans, _rides(driven, plan, name))
 
 
@@ -137,7 +140,24 @@ def _with(plan: FleetPlan, member: FleetMember, members: Sequence[FleetMember]) 
     """A plan with a robot more, or in place of one of its name."""
     _check_nothing_moves(plan)
     driven = _driven(plan)
+    laid = _laid(plan, member)
+    count = len(plan.names)
+    nowhere = LetIn(np.full(count, np.inf), np.zeros(count), np.zeros(count, np.bool_))
+    joined = joined_fleet(driven, plan.laws.packed, nowhere, member, laid)
+    robot = joined.names.index(member.name)
+    rides = _rides(joined, plan, member.name)
+    law = timed_trajectory(laid.trajectory, joined.courses, rides, joined.laws, robot)
+    plans = {**plan.plans, member.name: replace(laid, trajectory=law)}
+    return _planned(plan, members, joined, plans, rides)
+
+
+def _laid(plan: FleetPlan, member: FleetMember) -> AnyPlan:
+    """The path of a robot round the places where the others rest, and its law if it were alone."""
     others = [one for one in plan.fleet.members if one.name != member.name]
+    if plan.is_spatial:
+        flights = {name: one for name, one in plan.plans.items() if isinstance(one, SpatialPlan)}
+        hovers = [it for one in others for it in hovers_of(one, flights.get(one.name))]
+        return laid_from_hover(member, plan.fleet.separation_m, hovers)
     reaches = dict(zip(plan.names, plan.courses.packed.reach.tolist(), strict=True))
     half = 0.5 * plan.fleet.separation_m
     rests = RestingPlaces(
@@ -148,15 +168,7 @@ def _with(plan: FleetPlan, member: FleetMember, members: Sequence[FleetMember]) 
         )
     )
     out = [one.name for one in plan.not_served if one.name != member.name]
-    laid = laid_from_rest(member, plan.fleet.separation_m, rests, out)
-    count = len(plan.names)
-    nowhere = LetIn(np.full(count, np.inf), np.zeros(count), np.zeros(count, np.bool_))
-    joined = joined_fleet(driven, plan.laws.packed, nowhere, member, laid)
-    robot = joined.names.index(member.name)
-    rides = _rides(joined, plan, member.name)
-    law = timed_trajectory(laid.trajectory, joined.courses, rides, joined.laws, robot)
-    plans = {**plan.planar_plans, member.name: replace(laid, trajectory=law)}
-    return _planned(plan, members, joined, plans, rides)
+    return laid_from_rest(member, plan.fleet.separation_m, rests, out)
 
 
 def _driven(plan: FleetPlan) -> DrivenFleet:
@@ -187,7 +199,7 @@ def _rides(driven: DrivenFleet, before: FleetPlan, changed: str) -> FleetRides:
 
 
 def _patrols(
-    before: FleetPlan, plans: Mapping[str, Plan], driven: DrivenFleet
+    before: FleetPlan, plans: Mapping[str, AnyPlan], driven: DrivenFleet
 ) -> FleetPatrols | None:
     """What still never ends, and from when on nothing else moves; None: all end."""
     if before.patrols is None or driven.rounds is None:
@@ -211,7 +223,7 @@ def _planned(
     before: FleetPlan,
     members: Sequence[FleetMember],
     driven: DrivenFleet,
-    plans: Mapping[str, Plan],
+    plans: Mapping[str, AnyPlan],
     rides: FleetRides,
 ) -> FleetPlan:
     """The plan of a fleet that was changed, proven anew as a whole."""

@@ -47,6 +47,11 @@ class DrivenFleet:
         return self.courses.names
 
     @property
+    def flies(self) -> bool:
+        """Whether its robots are in space."""
+        return self.courses.bodies is not None
+
+    @property
     def lengths(self) -> Floats:
         """Of the robots' paths [m], (n,)."""
         packed = self.courses.packed
@@ -62,7 +67,7 @@ class DrivenFleet:
         return np.sqrt(np.maximum.reduceat(self.rides.square, first))
 
     def course(self, robot: int) -> tuple[Floats, Floats]:
-        """Distances and places of the nodes of a robot's course [m], (m,) and (m, 2)."""
+        """Distances and places of the nodes of a robot's course [m], (m,) and (m, 2 or 3)."""
         packed = self.courses.packed
         nodes = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
         return packed.distance[nodes], packed.place[nodes]

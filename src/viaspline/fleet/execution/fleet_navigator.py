@@ -9,6 +9,7 @@ from math import floor
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.execution.believed_reports import believed
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
 from viaspline.fleet.execution.dwells import FleetStations, dwell
@@ -28,7 +29,6 @@ from viaspline.kernels.fleet.dispatching import dispatch_step
 from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.route_spec import Route
-from viaspline.planner import Plan
 from viaspline.robot.warmed import KernelCallback, warm_up
 
 PERIOD_S = 0.1
@@ -102,7 +102,7 @@ class FleetNavigator:
         check_still(plan.fleet)
         warm_up(plan.fleet, progress, warm)
         self._begin(driven_fleet_of(plan), margin_m, stops_within_m, period)
-        self._missions = None if plan.is_spatial else FleetMissions.of(plan)
+        self._missions: FleetMissions | None = FleetMissions.of(plan)
 
     @classmethod
     def of(
@@ -233,7 +233,7 @@ class FleetNavigator:
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
         check_still(plan.fleet)
         navigator = self.with_fleet(driven_fleet_of(plan))
-        navigator._missions = None if plan.is_spatial else FleetMissions.of(plan)
+        navigator._missions = FleetMissions.of(plan)
         return navigator
 
     def with_fleet(self, fleet: DrivenFleet) -> FleetNavigator:
@@ -256,7 +256,7 @@ class FleetNavigator:
             PlanningError: It has no path, or can't be timed along it: who is in its way.
             GeometryError: There is a robot of that name already, or this navigator has no plan.
         """
-        check_member(member)
+        check_member(member, flies=self._fleet.flies)
         if member.name in self.names:
             raise GeometryError(f"there is a robot {member.name!r} already; give another name")
         words = f"{member.name} is added"
@@ -321,7 +321,7 @@ class FleetNavigator:
         return f"FleetNavigator({len(self.names)} robots {when}, {arrived} arrived, {out} out)"
 
     @property
-    def paths(self) -> Mapping[str, Plan]:
+    def paths(self) -> Mapping[str, AnyPlan]:
         """The path that each robot drives, with the law that it would drive alone, by name.
 
         Raises:

@@ -19,14 +19,9 @@ from viaspline.fleet.execution.fleet_orders import index_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent
 from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
+from viaspline.fleet.execution.other_ways import laid_now, left_of_route, sent_from
 from viaspline.fleet.execution.rolled_over import rolled_over
-from viaspline.fleet.execution.ways_from_rest import (
-    FleetMissions,
-    from_where_it_stands,
-    laid_from_rest,
-    rest_of_route,
-    rests_now,
-)
+from viaspline.fleet.execution.ways_from_rest import FleetMissions
 from viaspline.kernels.fleet.dispatching import HELD_M
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.model import Mission
@@ -62,10 +57,7 @@ class FleetUnderWay:
             GeometryError: That isn't known.
         """
         if self.missions is None:
-            raise GeometryError(
-                "this navigator has no FleetPlan of a fleet in the plane; give one to "
-                "FleetNavigator, or plan a fleet in space anew"
-            )
+            raise GeometryError("this navigator has no FleetPlan; give one to FleetNavigator")
         return self.missions
 
     def along(self, fleet: DrivenFleet) -> FleetUnderWay:
@@ -85,11 +77,16 @@ class FleetUnderWay:
         return bool(is_bound and state.speeds[robot] <= STANDS_MPS and not state.out[robot])
 
     def stopping(self, name: str, period: float) -> FleetUnderWay:
-        """With a robot that is asked to stop as soon as it can."""
+        """With a robot that is asked to stop as soon as it can.
+
+        It may be faster by now than it was when it was heard, for so long as two periods.
+        """
         robot = index_of(self.fleet.names, name)
         state = self.state.copied(self.state.time)
-        speed = float(state.speeds[robot])
-        ahead = 0.5 * speed * speed / float(self.fleet.rides.brake[robot]) + 2.0 * speed * period
+        rides = self.fleet.rides
+        faster = float(state.speeds[robot] + 2.0 * period * rides.accel[robot])
+        speed = min(faster, max(float(self.fleet.fastest[robot]), float(state.speeds[robot])))
+        ahead = 0.5 * speed * speed / float(rides.brake[robot]) + 2.0 * speed * period
         stops_at = min(float(state.places[robot]) + ahead, float(state.packed.promised[robot]))
         state.stops_at[robot] = state.packed.halt[robot] = stops_at
         state.packed.recalled_at[robot] = state.time
@@ -105,8 +102,8 @@ class FleetUnderWay:
             raise GeometryError(
                 f"{name} drives, or may set out at any time; ask it to stop with stopping({name!r})"
             )
-        place, path = float(self.state.places[robot]), missions.plans[name].path
-        mission = from_where_it_stands(missions.members[name].mission, route, path, place)
+        place = float(self.state.places[robot])
+        mission = sent_from(missions.members[name], missions.plans[name], route, place)
         along = place + float(self.state.driven[robot])
         return self._sent(name, mission, f"{name} is sent elsewhere from {along:.1f} m")
 
@@ -138,8 +135,7 @@ class FleetUnderWay:
         missions, fleet, state = self.known, self.fleet, self.state
         out = [fleet.names[k] for k in np.flatnonzero(state.out).tolist()]
         member = _departing(member, max(member.mission.route.depart_s, self.now))
-        rests = rests_now(fleet, state, missions, member.name)
-        plan = laid_from_rest(member, fleet.separation, rests, out)
+        plan = laid_now(fleet, state, missions, member, out)
         let_in = LetIn(state.packed.progress, state.packed.promised, state.out)
         leaves = fleet.names.index(member.name) if member.name in fleet.names else None
         laws = expected_laws(fleet, state, leaves)
@@ -157,9 +153,12 @@ class FleetUnderWay:
         plan, place = missions.plans[name], float(self.state.places[robot])
         if missions.members[name].mission.route.is_patrol:
             raise GeometryError("it is a patrol that never ends; give it a route of its own")
-        route = rest_of_route(plan.mission, plan.path, place)
-        mission = missions.members[name].mission.model_copy(update={"route": route})
-        return self._sent(name, mission, f"{name} goes another way from {place:.1f} m")
+        route, member = left_of_route(plan, place), missions.members[name]
+        return self._sent(
+            name,
+            sent_from(member, plan, route, place),
+            f"{name} goes another way from {place:.1f} m",
+        )
 
     def _sent(self, name: str, mission: Mission, words: str) -> FleetUnderWay:
         """With a robot that has another mission from now on."""

@@ -14,6 +14,9 @@ from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.dispatching import states_ahead
 
+ROUNDING_M = 1e-9
+"""A place that is so little beyond a grant is where that ends [m]."""
+
 
 def commands_of(
     fleet: DrivenFleet, stations: FleetStations, state: FleetProgressState, grants: Floats,
@@ -33,6 +36,8 @@ def commands_of(
     places, speeds = states_ahead(
         fleet.courses.packed, rides, packed.progress, state.speeds, grants, period
     )
+    beyond = places - grants
+    places = np.where((beyond > 0.0) & (beyond < ROUNDING_M), grants, places)
     sets_out = fleet.rides.depart < state.time + period
     for robot, name in enumerate(fleet.names):
         if state.out[robot]:

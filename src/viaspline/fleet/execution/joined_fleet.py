@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.errors import GaveUpError
-from viaspline.fleet.courses import FleetCourses, courses_of
+from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_of
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.renewed_crossings import renewed_crossings
@@ -24,7 +24,6 @@ from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import FleetMember
-from viaspline.planner import Plan
 
 Value = TypeVar("Value", bound=np.generic)
 MAX_ROUNDS = 20
@@ -47,7 +46,7 @@ class LetIn:
 
 
 def joined_fleet(
-    fleet: DrivenFleet, laws: PackedLaws, let_in: LetIn, member: FleetMember, plan: Plan
+    fleet: DrivenFleet, laws: PackedLaws, let_in: LetIn, member: FleetMember, plan: AnyPlan
 ) -> DrivenFleet:
     """A fleet with one robot more, or with one that has another path.
 
@@ -117,7 +116,7 @@ def _crossed(fleet: DrivenFleet, robot: int) -> tuple[Ints, Floats, Floats]:
 def _in_the_way(grown: DrivenFleet, robot: int, other: int, place: float) -> GaveUpError:
     """What is told of a robot that can't be timed along its path."""
     along, places = grown.course(robot)
-    where = np.array([np.interp(place, along, places[:, axis]) for axis in (0, 1)])
+    where = np.array([np.interp(place, along, row) for row in places.T])
     name, in_its_way = grown.names[robot], grown.names[other]
     return GaveUpError(
         f"'{name}' can't be timed among those that drive: '{in_its_way}' is in its way at "
@@ -152,7 +151,7 @@ class _Place:
         return np.concatenate((before[: self.robot], new, before[self.robot + 1 :]))
 
 
-def _grown(fleet: DrivenFleet, laws: PackedLaws, member: FleetMember, plan: Plan) -> DrivenFleet:
+def _grown(fleet: DrivenFleet, laws: PackedLaws, member: FleetMember, plan: AnyPlan) -> DrivenFleet:
     """The fleet with the robot's path, which has no law yet."""
     fresh = courses_of({member.name: plan}, fleet.separation)
     mine, old, count = fresh.packed, fleet.courses.packed, len(fleet.names)
@@ -169,6 +168,7 @@ def _grown(fleet: DrivenFleet, laws: PackedLaws, member: FleetMember, plan: Plan
             bow=at.by_node(old.bow, mine.bow),
             reach=at.by_robot(old.reach, mine.reach),
         ),
+        _joined_bodies(at, fleet.courses.bodies, fresh.bodies),
     )
     crossings = renewed_crossings(fleet.crossings, fleet.courses, courses, np.array([robot]))
     never, nothing = np.full(len(mine.distance), np.inf), np.zeros(len(mine.distance))
@@ -181,6 +181,11 @@ def _grown(fleet: DrivenFleet, laws: PackedLaws, member: FleetMember, plan: Plan
     rides = _joined_rides(at, fleet.rides, rides_of([member], [plan], fresh).packed)
     rounds = None if fleet.rounds is None else at.by_robot(fleet.rounds, np.zeros(1))
     return DrivenFleet(courses, crossings, FleetLaws(none), rides, fleet.separation, rounds)
+
+
+def _joined_bodies(at: _Place, before: Floats | None, new: Floats | None) -> Floats | None:
+    """What robots take up in space, with one of them more, or another; None in the plane."""
+    return None if before is None or new is None else at.by_robot(before, new)
 
 
 def _joined_rides(at: _Place, before: PackedRides, new: PackedRides) -> PackedRides:

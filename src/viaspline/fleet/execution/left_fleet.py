@@ -40,6 +40,7 @@ def fleet_without(fleet: DrivenFleet, robot: int) -> DrivenFleet:
                 bow=courses.bow[nodes],
                 reach=courses.reach[others],
             ),
+            None if fleet.courses.bodies is None else fleet.courses.bodies[others],
         ),
         FleetCrossings(_crossings_without(fleet, robot)),
         FleetLaws(

@@ -16,6 +16,7 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, NoPathError
+from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.fleet_plan import FleetPlan
@@ -46,14 +47,14 @@ class FleetMissions:
     """
 
     members: Mapping[str, FleetMember]
-    plans: Mapping[str, Plan]
+    plans: Mapping[str, AnyPlan]
 
     @classmethod
     def of(cls, plan: FleetPlan) -> FleetMissions:
         """What the robots of a plan are to do."""
-        return cls({one.name: one for one in plan.fleet.members}, plan.planar_plans)
+        return cls({one.name: one for one in plan.fleet.members}, plan.plans)
 
-    def with_way(self, member: FleetMember, plan: Plan) -> FleetMissions:
+    def with_way(self, member: FleetMember, plan: AnyPlan) -> FleetMissions:
         """With a robot more, or another mission and path of one."""
         name = member.name
         return replace(
@@ -61,8 +62,12 @@ class FleetMissions:
         )
 
 
-def check_member(member: FleetMember) -> None:
-    """Refuse what is no robot with a mission that ends.
+def check_member(member: FleetMember, *, flies: bool) -> None:
+    """Refuse what is no robot with a mission that ends, in the plane or in space as the others.
+
+    Args:
+        member: The robot.
+        flies: Whether the others are in space.
 
     Raises:
         GeometryError: It is something else, or never ends.
@@ -74,6 +79,11 @@ def check_member(member: FleetMember) -> None:
         raise GeometryError(
             f"'{member.name}' is a patrol that never ends; plan the whole fleet anew, or give it a "
             "number of laps"
+        )
+    if member.mission.is_spatial is not flies:
+        raise GeometryError(
+            f"'{member.name}' is in the {'plane' if flies else 'air'}, and the fleet isn't; "
+            f"{'give its points heights' if flies else 'leave out its heights'}"
         )
 
 
@@ -171,13 +181,23 @@ def _anywhere(
     fleet: DrivenFleet, state: FleetProgressState, robot: int, reach: float
 ) -> Iterator[RestingPlace]:
     """Where a robot stands that doesn't drive any more: all places at which it may be."""
+    places, grown = places_of_one_out(state, robot)
+    for place in places:
+        x, y = _place_at(fleet, robot, place)
+        yield RestingPlace(fleet.names[robot], "goal", (x, y), reach + grown)
+
+
+def places_of_one_out(state: FleetProgressState, robot: int) -> tuple[list[float], float]:
+    """Where along its path a robot may be that doesn't go on any more.
+
+    Returns:
+        Distances along the path, and how far it may be from the nearest of them [m].
+    """
     since, until = float(state.packed.progress[robot]), float(state.packed.promised[robot])
     since = max(min(since, float(state.places[robot])), 0.0)
     count = math.ceil((until - since) / SPACING_M) if until > since else 0
-    grown = reach + (0.5 * SPACING_M if count else 0.0)
-    for place in np.linspace(since, max(until, since), count + 1).tolist():
-        x, y = _place_at(fleet, robot, place)
-        yield RestingPlace(fleet.names[robot], "goal", (x, y), grown)
+    places: list[float] = np.linspace(since, max(until, since), count + 1).tolist()
+    return places, 0.5 * SPACING_M if count else 0.0
 
 
 def _place_at(fleet: DrivenFleet, robot: int, place: float) -> tuple[float, float]:

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Final
 
 from viaspline.bounded_file import is_folder
-from viaspline.errors import SavedPlanError
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import FleetCertificate, certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan

@@ -35,13 +35,14 @@ class HoverPlace:
     Attributes:
         robot: Its name.
         kind: ``start``: until it departs; ``goal``: from when it has arrived; ``home``: both;
-            ``stranded``: at its start for ever, for it has no path.
+            ``stranded``: at its start for ever, for it has no path; ``out``: for ever, for it
+            doesn't fly any more.
         at: [m].
         body: What it takes up there.
     """
 
     robot: str
-    kind: Literal["start", "goal", "home", "stranded"]
+    kind: Literal["start", "goal", "home", "stranded", "out"]
     at: Place
     body: FlyingBody
 
@@ -50,7 +51,14 @@ class HoverPlace:
         """What it is called as an obstacle."""
         if self.kind == "stranded":
             return f"{self.robot}, which can't leave its start"
+        if self.kind == "out":
+            return f"{self.robot}, which doesn't fly any more"
         return f"{self.robot}, resting at its {self.kind}"
+
+    @property
+    def is_never_left(self) -> bool:
+        """Whether the robot stays there for good, so that no path passes."""
+        return self.kind in ("stranded", "out")
 
     def gaps(self, body: FlyingBody, places: Floats) -> Floats:
         """Free space between it and another body at places [m], (n, 3): [m], (n,)."""

@@ -141,7 +141,7 @@ def lay_among_hovers(
     body = FlyingBody.of(alone.mission.robot)
     points = np.array([via.at for via in alone.path.vias if via.kind == "user"], np.float64)
     spare = [float(place.gaps(body, points).min()) - separation for place in others]
-    stranded = [place.kind == "stranded" for place in others]
+    stranded = [place.is_never_left for place in others]
     round_them = {
         k: min(room - HAIR_M, KEPT_MORE_M)
         for k, room in enumerate(spare)

@@ -1,0 +1,81 @@
+"""Other paths for robots of a fleet under way, in the plane or in space as the fleet is.
+
+Tested through ``fleet/execution/test_changed_flights``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from viaspline.fleet.courses import AnyPlan
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.fleet.execution.ways_from_rest import (
+    FleetMissions,
+    from_where_it_stands,
+    laid_from_rest,
+    rest_of_route,
+    rests_now,
+)
+from viaspline.fleet.execution.ways_in_the_air import (
+    from_where_it_hovers,
+    hovers_now,
+    laid_from_hover,
+    rest_of_flight,
+)
+from viaspline.mission.fleet.fleet import FleetMember
+from viaspline.mission.model import Mission
+from viaspline.mission.route_spec import Route
+from viaspline.space.spatial_plan import SpatialPlan
+
+
+def left_of_route(plan: AnyPlan, place: float) -> Route:
+    """What is left of a robot's route, from a place of its path on [m].
+
+    Raises:
+        GeometryError: No route is left that could be planned.
+    """
+    if isinstance(plan, SpatialPlan):
+        return rest_of_flight(plan, place)
+    return rest_of_route(plan.mission, plan.path, place)
+
+
+def sent_from(member: FleetMember, plan: AnyPlan, route: Route, place: float) -> Mission:
+    """A robot's mission with another route, from where it stands.
+
+    Args:
+        member: The robot.
+        plan: Whose path it has until now.
+        route: Its other one.
+        place: Where it stands along the path [m].
+
+    Raises:
+        GeometryError: The route is closed.
+    """
+    if isinstance(plan, SpatialPlan):
+        return from_where_it_hovers(plan, route, place)
+    return from_where_it_stands(member.mission, route, plan.path, place)
+
+
+def laid_now(
+    fleet: DrivenFleet, state: FleetProgressState, missions: FleetMissions, member: FleetMember,
+    out: Sequence[str],
+) -> AnyPlan:  # fmt: skip
+    """The path of a robot round all that rest now or will, and the law that it would drive alone.
+
+    Args:
+        fleet: What is driven.
+        state: How far it has come.
+        missions: Of the robots.
+        member: The robot, with a mission that begins where it stands.
+        out: Those that never get on any more.
+
+    Raises:
+        PlanningError: There is no way, or none was found.
+        GeometryError: The robot can't follow it.
+    """
+    if fleet.flies:
+        hovers = hovers_now(fleet, state, missions, member.name)
+        return laid_from_hover(member, fleet.separation, hovers)
+    rests = rests_now(fleet, state, missions, member.name)
+    return laid_from_rest(member, fleet.separation, rests, out)
