@@ -65,16 +65,22 @@ def test_what_comes_head_on_is_swerved_from_though_it_is_seen_late(side: float) 
 
 
 def test_a_place_that_was_swerved_through_is_not_served_by_a_later_path() -> None:
-    """Two come head on, one after the other, from either side of the line."""
+    """Two come head on, one after the other, from either side of the line.
+
+    A via point of the route has the name of such places, and is served by all paths.
+    """
     first = moves("first", 1.0, [[0, 80, 0.3, 10], [33, -20, 0.3, 10]])
     later = moves("later", 1.0, [[0, 118, -0.3, 10], [47, -20, -0.3, 10]])
-    run = fly(plan_spatial(mission([first, later], reach=20, noise=0.1)))
+    point = {"name": "aside", "at": [72, 0, 10]}
+    run = fly(plan_spatial(mission([first, later], reach=20, noise=0.1, via=[point])))
     assert run.reached
     for one in (first, later):
         assert gaps_and_speeds(run, one)[0].min() >= CLEARANCE - 1e-3
     paths = [one.path for one in run.replans if one.path is not None]
     assert len(paths) >= 2
-    assert all(sum(via.name == "aside" for via in path.vias) <= 1 for path in paths)
+    asides = [[via for via in path.vias if via.name == "aside"] for path in paths]
+    assert all(sum(via.index is None for via in found) <= 1 for found in asides)
+    assert all([via.at for via in found if via.index == 1] == [(72, 0, 10)] for found in asides)
 
 
 def test_what_stands_in_the_way_for_good_ends_the_flight_before_it_with_its_name(
