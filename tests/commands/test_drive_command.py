@@ -86,10 +86,12 @@ def test_ctrl_c_stops_it_before_the_process_ends(mission: Path) -> None:
                 assert process.poll() is None, process.communicate()[1]
                 time.sleep(0.05)
             process.send_signal(signal.SIGINT)
-            _, said = process.communicate(timeout=20.0)
+            _, said = process.communicate(timeout=120.0)
         assert process.returncode == 130
         assert "interrupted; HOLD" in said
-        time.sleep(1.5)
+        deadline = time.monotonic() + 60.0
+        while abs(vehicle.speed) >= 0.05 and time.monotonic() < deadline:
+            time.sleep(0.05)
         assert vehicle.mode == 4
         assert vehicle.setpoints[-1][1].vx == 0.0
         assert abs(vehicle.speed) < 0.05

@@ -19,7 +19,7 @@ from websockets.sync.client import ClientConnection, connect
 from viaspline.studio.serve import Address, server_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-PATIENCE = 240.0  # the first plan on a machine compiles [s]
+PATIENCE = 400.0  # the first plan on a machine compiles [s]
 
 Message = dict[str, Any]
 
@@ -148,6 +148,12 @@ PLACE = """([x, y]) => {
   return [px + box.left, py + box.top];
 }"""
 
+SHOWN = """async () => {
+  const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+  for (await wait(120); !studio.isUpToDate(); await wait(10));
+}"""
+"""Until the panels have followed, in the page's own time: a busy machine may be late with it."""
+
 
 class Page:
     """A page of the studio, in the words of the person before it."""
@@ -161,7 +167,7 @@ class Page:
 
     def open(self, url: str) -> None:
         self.page.goto(url)
-        self.page.wait_for_selector("body[data-ready]", timeout=240_000)
+        self.page.wait_for_selector("body[data-ready]", timeout=1000 * PATIENCE)
         self.settle()
 
     def js(self, script: str, argument: Any = None) -> Any:
@@ -169,14 +175,18 @@ class Page:
 
     def until(self, script: str) -> None:
         """Wait for something to become true; the page forbids waiting by eval."""
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + PATIENCE
         while not self.js(script):
             assert time.monotonic() < deadline, script
             self.page.wait_for_timeout(10)
 
     def settle(self) -> None:
         self.until("studio.store.plan?.rev === studio.store.revision")
-        self.page.wait_for_timeout(120)  # the panels follow
+        self.show()
+
+    def show(self) -> None:
+        """Wait until map and panels show what the page knows."""
+        self.js(SHOWN)
 
     @property
     def doc(self) -> Any:
@@ -229,6 +239,7 @@ def visit(browser: Any, start: Start) -> Iterator[Callable[..., Page]]:
         context = browser.new_context(
             viewport={"width": width, "height": height}, accept_downloads=True, **options
         )
+        context.set_default_timeout(1000 * PATIENCE)
         contexts.append(context)
         pages.append(Page(context.new_page(), studio.url))
         return pages[-1]

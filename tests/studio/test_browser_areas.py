@@ -167,7 +167,7 @@ def test_the_robot_that_drives_has_its_shape(visit: Visit, tmp_path: Path) -> No
     page.page.get_by_role("button", name="Drive", exact=True).click()
     page.page.wait_for_selector("body.is-driving")
     page.js("(studio.drive.pause(), studio.drive.seek(8))")
-    page.page.wait_for_timeout(100)
+    page.show()
     x = page.js("studio.drive.state().x")
     colour = """([x, y]) => {
       const [px, py] = studio.camera.toScreen(x, y), ratio = devicePixelRatio;

@@ -85,7 +85,7 @@ COLOUR = """([x, y]) => {
 
 def seek(page: Any, time: float) -> None:
     page.js("time => studio.preview.seek(time)", time)
-    page.page.wait_for_timeout(60)
+    page.show()
 
 
 def test_a_cart_is_drawn_where_it_is_at_the_instant_and_turned(

@@ -94,8 +94,9 @@ def test_the_map_zooms_to_the_cursor_and_moves(visit: Visit, patrol: Path) -> No
     page = visit(patrol)
     x, y = page.place([290, 390])
     page.page.mouse.move(x, y)  # wheels tell whole pixels
+    scale = page.js("studio.camera.scale")
     page.page.mouse.wheel(0, -400)
-    page.page.wait_for_timeout(100)
+    page.until(f"studio.camera.scale > {scale}")
     assert near(list(page.place([290, 390])), [x, y], 1.5)
     page.page.mouse.move(x, y + 40)
     page.page.mouse.down(button="middle")

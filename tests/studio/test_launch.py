@@ -37,7 +37,7 @@ def test_it_says_where_it_is_and_ends_with_ctrl_c() -> None:
     with urllib.request.urlopen(url) as answer:
         assert b"viaspline studio" in answer.read()
     process.send_signal(signal.SIGINT)
-    _, told = process.communicate(timeout=20)
+    _, told = process.communicate(timeout=120)
     assert process.returncode == 130
     assert "Traceback" not in told
 

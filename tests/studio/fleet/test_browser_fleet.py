@@ -126,7 +126,7 @@ def test_the_scrubber_plays_every_robot(visit: Visit, file: Path) -> None:
         page.js(f"studio.store.fleetPlan.byName.get('{n}').law.times.at(-1)")
         for n in ("east", "north", "own")
     )
-    page.page.wait_for_timeout(200)  # the marks on it follow the plan
+    page.show()
     scrub = page.page.locator("#scrub")
     scrub.fill(str(round(end / 3, 1)))
     time = page.js("studio.preview.time")
@@ -216,7 +216,7 @@ def test_a_fault_is_told_with_its_robot_and_its_button_helps(visit: Visit, file:
     page = visit(file)
     page.drag([12, 0], [10, 7])
     page.page.get_by_role("button", name="robot own").click()
-    page.page.wait_for_timeout(150)
+    page.show()
     assert "east: via 1" in text(page, "#summary")
     page.page.get_by_role("button", name="Move east: via 1 to").click()
     page.settle()

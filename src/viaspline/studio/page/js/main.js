@@ -34,7 +34,7 @@ import { Summary } from "./panels/summary.js";
 import { Timeline } from "./panels/timeline.js";
 import { listenToBars } from "./panels/bars.js";
 import { listenToEdges } from "./panels/edges.js";
-import { h } from "./panels/dom.js";
+import { h, isUpToDate } from "./panels/dom.js";
 import { Clipboard } from "./select/clipboard.js";
 import { Selecting } from "./select/selecting.js";
 import { Snap } from "./snap/snap.js";
@@ -221,6 +221,9 @@ app.settled = async () => {
     await new Promise((resolve) => setTimeout(resolve, 10));
   }
 };
+
+/** Whether map and panels show what is known; of what is still asked of the server they can't. */
+app.isUpToDate = () => isUpToDate() && app.scene.isUpToDate;
 
 // --- files
 

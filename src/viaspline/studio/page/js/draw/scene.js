@@ -76,6 +76,11 @@ export class Scene {
     });
   }
 
+  /** Whether what there is to be seen was drawn. */
+  get isUpToDate() {
+    return !this.isDue && !this.patience;
+  }
+
   /** Draw at once, for the next frame: a new path doesn't wait for it to begin. */
   now() {
     clearTimeout(this.patience);

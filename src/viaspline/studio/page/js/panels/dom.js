@@ -168,6 +168,11 @@ export function isTypedInto(panel) {
   return active instanceof HTMLInputElement && panel.contains(active) && active.value !== active.defaultValue;
 }
 
+let soon = 0; // works that are still to be done
+
+/** Whether nothing is left to be done soon: panels show what there is. */
+export const isUpToDate = () => soon === 0;
+
 /** Do something soon, once for many calls: panels need not keep up with every drag. @param {() => void} work @param {number} ms */
 export function lazily(work, ms) {
   let timer = 0;
@@ -175,7 +180,9 @@ export function lazily(work, ms) {
   return () => {
     if (timer) return;
     const wait = Math.max(0, ms - (performance.now() - last));
+    soon += 1;
     timer = setTimeout(() => {
+      soon -= 1;
       timer = 0;
       last = performance.now();
       work();
