@@ -26,10 +26,10 @@ PASSIVE = {"max_speed_mps": TOP, "safety": "passive"}
 @given(seed=st.integers(0, 100_000))
 def test_nothing_touches_a_robot_under_way(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    moving = [wanderer(rng, f"m{k}", TOP) for k in range(int(rng.integers(1, 4)))]
+    moving = [wanderer(rng, f"m{k}", TOP, far=30.0) for k in range(int(rng.integers(1, 4)))]
     moving = [one for one in moving if gaps_at_start(one) > 3.0]
-    run = fly(plan_spatial(mission(moving, things=PASSIVE, noise=float(rng.choice((0.0, 0.3))))),
-              seed=seed)  # fmt: skip
+    asked = mission(moving, things=PASSIVE, noise=float(rng.choice((0.0, 0.3))), goal=[30, 0, 10])
+    run = fly(plan_spatial(asked), seed=seed)
     event("reached" if run.reached else "not reached")
     for one in moving:
         gaps, speeds = gaps_and_speeds(run, one)

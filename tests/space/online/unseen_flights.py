@@ -38,12 +38,12 @@ def moves(name: str, radius: float, frames: list[list[float]], after: str = "sta
             "motion": {"keyframes": rows, "after": after}}  # fmt: skip
 
 
-def wanderer(rng: np.random.Generator, name: str, top: float) -> dict[str, Any]:
+def wanderer(rng: np.random.Generator, name: str, top: float, far: float = 80.0) -> dict[str, Any]:
     """A ball that goes from place to place on the way, never faster than it may [m/s]."""
-    at, time = rng.uniform((10, -30, 4), (90, 30, 16)), 0.0
+    at, time = rng.uniform((10, -30, 4), (far + 10, 30, 16)), 0.0
     rows = [[0.0, *at]]
     for _ in range(int(rng.integers(2, 7))):
-        to = rng.uniform((0, -6, 8), (80, 6, 12))
+        to = rng.uniform((0, -6, 8), (far, 6, 12))
         time += max(float(np.linalg.norm(to - at)) / (rng.uniform(0.3, 0.999) * top), 0.5)
         at = to
         rows.append([time, *at])
