@@ -1,9 +1,26 @@
 """For all tests and all examples in the sources."""
 
+import os
 from collections.abc import Iterator
 from types import SimpleNamespace
 
 import pytest
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Where several processes share the tests, those that take long aren't left to the end.
+
+    The others would have nothing to do by then. Processes take over what is last in another one's
+    queue, so that the first one goes through these.
+    """
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        items.sort(key=_sooner)
+
+
+def _sooner(item: pytest.Item) -> int:
+    if item.get_closest_marker("slow"):
+        return 0
+    return 1 if "browser" in getattr(item, "fixturenames", ()) else 2
 
 
 @pytest.fixture(scope="session", autouse=True)
