@@ -31,10 +31,13 @@ from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import along_limits, retime_in_space
+from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.limits import Station
 
 StopsOn = Callable[[SpatialProblem, Path], Iterable[Station]]
 """Where the robot of a problem has to stop on a path."""
+HeadingsOn = Callable[[SpatialProblem, Path], YawProfile]
+"""Where the robot of a problem looks along a path."""
 
 
 def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
@@ -50,7 +53,7 @@ def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
     """
     if not mission.world.moving:
         return flight_as_if_still(plan, mission)
-    alone = _alone(plan, mission, stops_of, comes_again=False)
+    alone = _alone(plan, mission, stops_of, headings_of, comes_again=False)
     free = alone.trajectory
     law = law_within_limits(plan, alone.path, free, along_limits(alone.limits), free.stations)
     proof = proof_past_moving(alone, law)
@@ -59,28 +62,31 @@ def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
 
 
 def flight_as_if_still(
-    plan: PlanFile, mission: Mission, stops_on: StopsOn = stops_of, *, comes_again: bool = False
-) -> SpatialPlan:
+    plan: PlanFile, mission: Mission, stops_on: StopsOn = stops_of,
+    headings_on: HeadingsOn = headings_of, *, comes_again: bool = False,
+) -> SpatialPlan:  # fmt: skip
     """The plan of a file, of which all is proven but how far it is from what moves.
 
     Args:
         plan: The file.
         mission: As it was planned.
         stops_on: Where its robot has to stop on a path.
+        headings_on: Where it looks along a path.
         comes_again: Whether all of its laps are the first one again, which alone is proven.
 
     Raises:
         SavedPlanError: As ``plan_in_space``.
     """
-    alone = _alone(plan, mission, stops_on, comes_again=comes_again)
+    alone = _alone(plan, mission, stops_on, headings_on, comes_again=comes_again)
     free = alone.trajectory
     law = law_of_file(plan, alone.path, free, along_limits(alone.limits), free.stations)
     return replace(alone, trajectory=law)
 
 
 def _alone(
-    plan: PlanFile, mission: Mission, stops_on: StopsOn, *, comes_again: bool
-) -> SpatialPlan:
+    plan: PlanFile, mission: Mission, stops_on: StopsOn, headings_on: HeadingsOn, *,
+    comes_again: bool,
+) -> SpatialPlan:  # fmt: skip
     """The path of a file, proven, with the fastest law along it."""
     problem = spatial_problem_of(mission)
     path = plan.path()
@@ -92,8 +98,10 @@ def _alone(
         raise plan.wrong("airborne_m isn't a part of the path")
     airborne = (float(ends[0]), float(ends[1]))
     _check_upright(plan, problem, airborne, path.length)
-    shown = _first_lap(plan, path, problem.laps) if comes_again else path
-    flown = (0.0, shown.length) if comes_again else airborne
+    shown, flown = path, airborne
+    if comes_again:
+        shown = _first_lap(plan, path, problem.laps, int(problem.takeoff is not None))
+        flown = (airborne[0], shown.length)
     try:
         certificate = whole_proof(problem, shown, flown)
         u = np.asarray(shown.parameter(flown)).tolist()
@@ -105,7 +113,7 @@ def _alone(
     certificate = plan.named(certificate)
     if not (certificate.holds and heights.holds):
         raise plan.wrong("the path doesn't keep the clearance or the heights of its mission")
-    yaw = headings_of(problem, path)
+    yaw = headings_on(problem, path)
     law = retime_in_space(
         path, problem.limits, tuple(stops_on(problem, path)), yaw, zones=problem.zones,
         start_time=mission.route.depart_s,
@@ -116,16 +124,17 @@ def _alone(
     )  # fmt: skip
 
 
-def _first_lap(plan: PlanFile, path: Path, laps: int) -> Path:
-    """The first lap of a path, of which all others are the same.
+def _first_lap(plan: PlanFile, path: Path, laps: int, before: int) -> Path:
+    """The first lap of a path, of which all others are the same, and so many spans before it.
 
     Raises:
         SavedPlanError: They aren't.
     """
-    spans, a_lap = path.spans, len(path.spans) // laps
+    spans = path.spans[before:]
+    a_lap = len(spans) // laps
     if not np.array_equal(np.concatenate([spans[:a_lap]] * laps), spans):
         raise plan.wrong("the laps of the path aren't the first one again")
-    return Path(spans[:a_lap], vias=[])
+    return Path(path.spans[: before + a_lap], vias=[])
 
 
 def _points(problem: SpatialProblem) -> list[AskedPoint]:

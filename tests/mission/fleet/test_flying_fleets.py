@@ -112,14 +112,14 @@ def test_keys_of_the_plane_are_told_at_a_route() -> None:
     assert "fleet[0].route.start.heading_deg: is for missions in the plane" in told
 
 
-def test_a_patrol_that_takes_off_is_told_that_its_laps_dont_close() -> None:
+def test_a_patrol_takes_off_or_begins_in_the_air_and_never_lands() -> None:
     route = {"start": [0, 0], "takeoff": {"to_agl_m": 9}, "via": [[9, 0, 9], [9, 9, 9]],
              "closed": True}  # fmt: skip
-    told = faults(fleet({"name": "a", "route": route}))
-    assert "fleet[0]: is a patrol that never ends and takes off" in told
-    Fleet.model_validate(fleet({"name": "a", "route": {**route, "laps": 2}}))
-    in_the_air = {"start": [0, 0, 9], "via": [[9, 0, 9], [9, 9, 9]], "closed": True}
-    Fleet.model_validate(fleet({"name": "a", "route": in_the_air}))
+    for rounds in (route, {**route, "laps": 2}, {"start": [0, 0, 9], "via": [[9, 0, 9], [9, 9, 9]],
+                                                 "closed": True}):  # fmt: skip
+        Fleet.model_validate(fleet({"name": "a", "route": rounds}))
+    told = faults(fleet({"name": "a", "route": {**route, "land": [0, 0]}}))
+    assert "land" in told
 
 
 def test_things_may_move_in_the_world_of_a_fleet() -> None:

@@ -175,7 +175,7 @@ def _driven(plan: FleetPlan) -> DrivenFleet:
     """The parts of a plan that change with its robots."""
     return DrivenFleet(
         plan.courses, plan.crossings, plan.laws, plan.rides.packed, plan.fleet.separation_m,
-        rounds_of(plan),
+        *rounds_of(plan),
     )  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.patrols.driven_laps import seams_of
+from viaspline.fleet.patrols.take_off_first import spans_before_laps
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
@@ -32,6 +33,7 @@ class DrivenFleet:
         separation: The free space that the plan keeps between bodies [m].
         rounds: How far each patrol drives in a period, again and again [m], 0 for robots that end,
             (n,); None: all end.
+        lead_ins: What each drives once, before all that [m], (n,); None where nobody does.
     """
 
     courses: FleetCourses
@@ -40,6 +42,7 @@ class DrivenFleet:
     rides: PackedRides
     separation: float
     rounds: Floats | None = None
+    lead_ins: Floats | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -96,17 +99,21 @@ def driven_fleet_of(plan: FleetPlan) -> DrivenFleet:
         FleetLaws(laws._replace(is_timed=laws.is_timed & served)),
         rides._replace(depart=departs),
         plan.fleet.separation_m,
-        rounds_of(plan),
+        *rounds_of(plan),
     )
 
 
-def rounds_of(plan: FleetPlan) -> Floats | None:
-    """How far patrols drive in a period [m], (n,); None where there are none."""
+def rounds_of(plan: FleetPlan) -> tuple[Floats | None, Floats | None]:
+    """How far patrols drive in a period, and once before that [m], (n,) each; None: there are none.
+
+    The latter is None as well where no patrol drives anything before its laps.
+    """
     if plan.patrols is None:
-        return None
-    rounds = np.zeros(len(plan.courses.names))
+        return None, None
+    rounds, lead_ins = (np.zeros(len(plan.courses.names)) for _ in range(2))
     for name, laps in plan.patrols.laps.items():
         one = plan.plans[name]
         robot = plan.courses.names.index(name)
-        rounds[robot] = seams_of(one.path, one.mission.route.laps)[laps]
-    return rounds
+        seams = seams_of(one.path, one.mission.route.laps, spans_before_laps(one))
+        rounds[robot], lead_ins[robot] = seams[laps] - seams[0], seams[0]
+    return rounds, lead_ins if lead_ins.any() else None

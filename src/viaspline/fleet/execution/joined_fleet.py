@@ -179,8 +179,13 @@ def _grown(fleet: DrivenFleet, laws: PackedLaws, member: FleetMember, plan: AnyP
         is_timed=at.by_robot(laws.is_timed, np.zeros(1, np.bool_)),
     )
     rides = _joined_rides(at, fleet.rides, rides_of([member], [plan], fresh).packed)
-    rounds = None if fleet.rounds is None else at.by_robot(fleet.rounds, np.zeros(1))
-    return DrivenFleet(courses, crossings, FleetLaws(none), rides, fleet.separation, rounds)
+    rounds, lead_ins = (
+        None if one is None else at.by_robot(one, np.zeros(1))
+        for one in (fleet.rounds, fleet.lead_ins)
+    )
+    return DrivenFleet(
+        courses, crossings, FleetLaws(none), rides, fleet.separation, rounds, lead_ins
+    )
 
 
 def _joined_bodies(at: _Place, before: Floats | None, new: Floats | None) -> Floats | None:

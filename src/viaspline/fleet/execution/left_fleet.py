@@ -60,6 +60,7 @@ def fleet_without(fleet: DrivenFleet, robot: int) -> DrivenFleet:
         ),
         fleet.separation,
         None if fleet.rounds is None else fleet.rounds[others],
+        None if fleet.lead_ins is None else fleet.lead_ins[others],
     )
 
 

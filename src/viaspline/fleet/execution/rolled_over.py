@@ -44,15 +44,18 @@ def rolled_over(
         GeometryError: The orders that hold have a cycle.
     """
     rounds = fleet.rounds
-    if rounds is None or not _is_over(state, rounds):
+    if rounds is None:
+        return state
+    since = np.zeros(len(rounds)) if fleet.lead_ins is None else fleet.lead_ins
+    if not _is_over(state, rounds, since):
         return state
     shift = np.where(state.out, 0.0, rounds)
-    served = state.stations - _passed(stations, shift)
+    served = state.stations - _passed(stations, since, since + shift)
     if (served < 0).any():
         return state  # one still stands where its next lap begins, for as long as it has to
     planned = state.orders.leaders
     leaders, by_second = planned.copy(), state.orders.by_second.copy()
-    for c, was in _a_period_later(fleet, shift).items():
+    for c, was in _a_period_later(fleet, since, shift).items():
         leader = int(state.packed.leaders[was])
         if leader >= 0:
             is_planned = leader == planned[was]
@@ -75,7 +78,7 @@ def rolled_over(
     packed.progress[:] -= shift
     packed.promised[:] -= shift
     packed.halt[:] -= shift
-    packed.begin[:] += _alone(fleet, shift)
+    packed.begin[:] += _alone(fleet, since + shift) - _alone(fleet, since)
     packed.head[:] = orders.packed.first[:-1]
     packed.recall[:] = -1
     packed.recall_place[:] = np.inf
@@ -98,7 +101,7 @@ def rolled_over(
     )
 
 
-def _is_over(state: FleetProgressState, rounds: Floats) -> bool:
+def _is_over(state: FleetProgressState, rounds: Floats, since: Floats) -> bool:
     """Whether all patrols have driven a period, and all others have arrived or are gone."""
     progress = state.packed.progress
     is_patrol = rounds > 0.0
@@ -107,21 +110,25 @@ def _is_over(state: FleetProgressState, rounds: Floats) -> bool:
     if not drives.any() or (state.out & drives).any() or (state.packed.recall >= 0).any():
         return False
     others = ~is_patrol & ~(state.arrived | state.out)
-    return not others.any() and bool((progress >= rounds)[drives].all())
+    return not others.any() and bool((progress >= since + rounds)[drives].all())
 
 
-def _passed(stations: FleetStations, shift: Floats) -> Ints:
-    """How many stations each robot has in a period, (n,)."""
-    inside = (stations.place > SAME_M) & (
-        stations.place <= np.repeat(shift, np.diff(stations.first)) + SAME_M
+def _passed(stations: FleetStations, since: Floats, until: Floats) -> Ints:
+    """How many stations each robot has from one place to another, (n,)."""
+    counts = np.diff(stations.first)
+    inside = (stations.place > np.repeat(since, counts) + SAME_M) & (
+        stations.place <= np.repeat(until, counts) + SAME_M
     )
-    counts: Ints = np.concatenate(([0], np.cumsum(inside)))
-    passed: Ints = np.diff(counts[stations.first])
+    sums: Ints = np.concatenate(([0], np.cumsum(inside)))
+    passed: Ints = np.diff(sums[stations.first])
     return passed
 
 
-def _a_period_later(fleet: DrivenFleet, shift: Floats) -> dict[int, int]:
-    """For each crossing the one of the same robots a period later, where the plan has it."""
+def _a_period_later(fleet: DrivenFleet, since: Floats, shift: Floats) -> dict[int, int]:
+    """For each crossing the one of the same robots a period later, where the plan has it.
+
+    What a robot passes before its first lap doesn't come again.
+    """
     packed = fleet.crossings.packed
     later: dict[tuple[int, int], list[int]] = {}
     for c, pair in enumerate(packed.robots.tolist()):
@@ -129,8 +136,10 @@ def _a_period_later(fleet: DrivenFleet, shift: Floats) -> dict[int, int]:
     found = {}
     for pair, crossings in later.items():
         by = np.repeat(shift[list(pair)], 2)
-        spans = packed.span[crossings]
+        spans, begins = packed.span[crossings], since[list(pair)]
         for c in crossings:
+            if (packed.span[c, 1::2] < begins).any():
+                continue
             off = np.abs(spans - packed.span[c] - by).max(axis=1)
             nearest = int(off.argmin())
             if off[nearest] < SAME_SPAN_M:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -81,23 +82,30 @@ def flown_stops_on_laps(problem: SpatialProblem, path: Path) -> list[Station]:
         problem: With so many laps.
         path: All of them.
     """
-    return _halting(stops_of(problem, path), path, problem.laps)
+    before = int(problem.takeoff is not None)
+    return _halting(stops_of(problem, path), path, problem.laps, before)
 
 
-def _halting(stops: Iterable[Station], path: Path, laps: int) -> list[Station]:
+def _halting(stops: Iterable[Station], path: Path, laps: int, before: int = 0) -> list[Station]:
     """The stations of several laps, and a halt at the start after each where there is none."""
     found = list(stops)
     found += [
         Station(seam)
-        for seam in seams_of(path, laps)[1:-1].tolist()
+        for seam in seams_of(path, laps, before)[1:-1].tolist()
         if all(abs(stop.distance - seam) > SAME_M for stop in found)
     ]
     return sorted(found, key=lambda stop: stop.distance)
 
 
-def seams_of(path: Path, laps: int) -> Floats:
-    """Where the laps of a path begin and end [m], (laps + 1,)."""
-    joints = np.arange(laps + 1) * (len(path.spans) // laps)
+def seams_of(path: Path, laps: int, before: int = 0) -> Floats:
+    """Where the laps of a path begin and end [m], (laps + 1,).
+
+    Args:
+        path: All of them.
+        laps: How many there are.
+        before: So many spans come before the first one.
+    """
+    joints = before + np.arange(laps + 1) * ((len(path.spans) - before) // laps)
     return np.asarray(path.distance(joints.astype(float)), dtype=np.float64)
 
 
@@ -140,33 +148,52 @@ def repeated_law(law: Trajectory, seams: Floats, period: float) -> Trajectory:
         raise GeometryError(
             f"a lap of {law.duration:g} s doesn't fit a period of {period:g} s; give a longer one"
         )
-    parts = [_moved(law, k, seams, period) for k in range(len(seams) - 1)]
-    firsts = [0 if k == 0 or law.duration < period - SAME_S else 1 for k in range(len(parts))]
+    return laws_in_a_row([_moved(law, k, seams, period) for k in range(len(seams) - 1)])
+
+
+def laws_in_a_row(parts: Sequence[Trajectory]) -> Trajectory:
+    """Time laws from rest to rest behind each other, with a halt where one begins later.
+
+    Args:
+        parts: Each begins where the one before ends, and no sooner.
+
+    Example:
+        >>> from viaspline.trajectory.limits import Limits
+        >>> from viaspline.curve.path import Path
+        >>> line = Path([[[0, 0], [3, 0], [6, 0], [9, 0]]], vias=[])
+        >>> law = retime(line, Limits(max_speed=1, max_accel=1))
+        >>> both = laws_in_a_row([law, law.moved(9.0).delayed(15.0)])
+        >>> both.time_at([4.5, 13.5]).tolist()
+        [5.0, 20.0]
+    """
+    waits = [later.start_time > before.end_time + SAME_S for before, later in pairwise(parts)]
+    firsts = [0, *(0 if wait else 1 for wait in waits)]
 
     def points(key: str) -> Floats:
         return np.concatenate(
             [getattr(part, key)[first:] for part, first in zip(parts, firsts, strict=True)]
         )
 
-    def pieces(values: Floats | None) -> Floats | None:
-        if values is None:
+    def pieces(key: str) -> Floats | None:
+        if all(getattr(part, key) is None for part in parts):
             return None
-        rows = [
-            np.concatenate(([0.0] if k > 0 and first == 0 else [], values))
-            for k, first in enumerate(firsts)
-        ]
+        rows = []
+        for k, (part, first) in enumerate(zip(parts, firsts, strict=True)):
+            values = getattr(part, key)
+            values = np.zeros(len(part.times) - 1) if values is None else values
+            rows.append(np.concatenate(([0.0] if k > 0 and first == 0 else [], values)))
         return np.concatenate(rows)
 
-    accelerations = pieces(law.accelerations)
+    accelerations = pieces("accelerations")
     assert accelerations is not None
     return replace(
-        law,
+        parts[0],
         distances=points("distances"),
         speeds=points("speeds"),
         times=points("times"),
         accelerations=accelerations,
-        changes=pieces(law.changes),
-        jerks=pieces(law.jerks),
+        changes=pieces("changes"),
+        jerks=pieces("jerks"),
         stations=tuple(stop for part in parts for stop in part.stations),
     )
 

@@ -19,7 +19,8 @@ class PatrolMeetings:
     """Where one lap of a patrol passes places at which others stand.
 
     Attributes:
-        starts: (patrol, robot whose start it passes), each pair once, (m, 2).
+        starts: (patrol, robot whose start it passes, or where whose laps begin), each pair once,
+            (m, 2).
         goals: (patrol, robot whose goal it passes and that stays there), (k, 2).
     """
 
@@ -28,8 +29,9 @@ class PatrolMeetings:
 
     @classmethod
     def of(
-        cls, courses: FleetCourses, crossings: FleetCrossings, vanishes: Flags, patrols: Flags
-    ) -> PatrolMeetings:
+        cls, courses: FleetCourses, crossings: FleetCrossings, vanishes: Flags, patrols: Flags,
+        take_off: Flags,
+    ) -> PatrolMeetings:  # fmt: skip
         """Find them.
 
         Args:
@@ -37,11 +39,13 @@ class PatrolMeetings:
             crossings: Where these come near each other.
             vanishes: Which robots leave the world when they arrive, (n,).
             patrols: Which ones are patrols, (n,).
+            take_off: Which ones begin their laps where they end, and not where they start, (n,).
         """
         packed, first = crossings.packed, courses.packed.first
         owner = box_owners(packed)
         by_patrol = patrols[packed.other]
-        at_start = by_patrol & (packed.cell == first[owner])
+        comes_back = take_off[owner] & (packed.cell == first[owner + 1] - 2)
+        at_start = by_patrol & ((packed.cell == first[owner]) | comes_back)
         at_goal = by_patrol & (packed.cell == first[owner + 1] - 2)
         at_goal &= ~(vanishes | patrols)[owner]
         pairs = np.column_stack([packed.other, owner])

@@ -14,11 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.errors import GaveUpError
+from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.laying.rest_in_the_way import rest_in_the_way
 from viaspline.fleet.laying.resting_places import rests_of
 from viaspline.fleet.patrols.driven_laps import (
     driven_laps,
+    laws_in_a_row,
     on_nodes,
     repeated_law,
     seams_of,
@@ -27,10 +29,20 @@ from viaspline.fleet.patrols.driven_laps import (
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.patrols.homes_in_the_way import PatrolMeetings
 from viaspline.fleet.patrols.patrol_rhythm import PatrolRhythm, patrol_rhythm
+from viaspline.fleet.patrols.take_off_first import (
+    after_ascent,
+    ascent_of,
+    lap_of,
+    on_its_laps,
+    spans_before_laps,
+    takes_off,
+)
+from viaspline.fleet.patrols.timed_ascents import timed_ascents
 from viaspline.fleet.space.hover_places import hover_in_the_way, hovers_of
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.timing.time_paths import copied_laws
 from viaspline.kernels.arrays import Flags
+from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
@@ -74,15 +86,18 @@ def timed_patrols(ways: FleetWays, separation: float, periods: int, serve: Serve
             return replace(serve(ways, out), reasons=asked.reasons(out))
         try:
             rhythm = patrol_rhythm(
-                [one for one in ways.members if one.name in names],
-                {name: ways.plans[asked.names.index(name)] for name in names},
+                [on_its_laps(one, asked.laps[one.name]) for one in ways.members
+                 if one.name in names],
+                {name: asked.laps[name] for name in names},
                 separation,
-            )
+            )  # fmt: skip
+            found = _among(asked, rhythm, out, periods, serve)
         except GaveUpError as error:
+            if len(error.obstacles) != 2:
+                raise
             who, whom = (asked.names.index(name) for name in error.obstacles)
             out = {**out, who: whom}
             continue
-        found = _among(asked, rhythm, out, periods, serve)
         if isinstance(found, TimedFleet):
             return replace(found, reasons=asked.reasons(out))
         out = {**out, **found}
@@ -96,12 +111,14 @@ class _AskedPatrols:
         ways: With one lap of each patrol.
         separation: Free space between any two bodies [m].
         flags: Which robots are patrols, (n,).
+        laps: One lap of each patrol, without what it flies before the first, by name.
         meetings: Where patrols pass places at which others stand.
     """
 
     ways: FleetWays
     separation: float
     flags: Flags
+    laps: Mapping[str, AnyPlan]
     meetings: PatrolMeetings
 
     @classmethod
@@ -109,8 +126,11 @@ class _AskedPatrols:
         """The patrols among some robots."""
         flags = np.array([one.mission.route.is_patrol for one in ways.members], np.bool_)
         vanishes = ways.rides.packed.vanishes
-        meetings = PatrolMeetings.of(ways.courses, ways.crossings, vanishes, flags)
-        return cls(ways, separation, flags, meetings)
+        rise = np.array([takes_off(one) for one in ways.plans], np.bool_) & flags
+        meetings = PatrolMeetings.of(ways.courses, ways.crossings, vanishes, flags, rise)
+        each = zip(ways.courses.names, ways.plans, flags.tolist(), strict=True)
+        laps = {name: lap_of(plan) for name, plan, is_patrol in each if is_patrol}
+        return cls(ways, separation, flags, laps, meetings)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -121,13 +141,19 @@ class _AskedPatrols:
         """See ``PatrolMeetings.hopeless``."""
         return self.meetings.hopeless(self.flags)
 
-    def unrolled(self, rhythm: PatrolRhythm, later: dict[str, int], until: float) -> FleetWays:
+    def unrolled(
+        self, rhythm: PatrolRhythm, later: Mapping[str, int], until: float
+    ) -> tuple[FleetWays, dict[str, int]]:
         """The ways with as many laps of each patrol as it takes.
 
         Args:
             rhythm: Of the patrols.
             later: So many periods later than it could each sets out, by name.
             until: The laps last until then at least [s].
+
+        Returns:
+            The ways; and so many periods later each sets out, more where one can't have taken off
+            by then.
 
         Raises:
             GaveUpError: There would be too many laps.
@@ -146,33 +172,74 @@ class _AskedPatrols:
                 remedy=f"let '{most}' drive a longer lap, or the others depart sooner",
                 tried=("laps laid out until all others have arrived",),
             )
-        for name, plan in zip(self.names, self.ways.plans, strict=True):
-            if name not in rounds:
-                plans[name] = plan
-                continue
-            laps = rhythm.laps[name]
-            plans[name] = driven_laps(plan, laps * rounds[name])
-            seams = seams_of(plans[name].path, laps * rounds[name])[::laps]
-            law = repeated_law(rhythm.laws[name], seams, period)
-            laws[name] = law.delayed(later[name] * period)
-        ways = replace(self.ways, settled=laws).along(plans, self.separation)
-        return self._compared(ways, rhythm, laws)
+        for name, lap in self.laps.items():
+            if name in rounds:
+                laps = rhythm.laps[name]
+                plans[name] = driven_laps(lap, laps * rounds[name])
+                seams = seams_of(plans[name].path, laps * rounds[name])[::laps]
+                law = repeated_law(rhythm.laws[name], seams, period)
+                laws[name] = law.delayed(later[name] * period)
+        ascents = timed_ascents(self._rising(plans), plans, laws, self.separation)
+        late = {
+            name: math.ceil((law.end_time - laws[name].start_time) / period - SAME_SHARE)
+            for name, law in ascents.items()
+            if law.end_time > laws[name].start_time + SAME_SHARE * period
+        }
+        if late:
+            return self.unrolled(rhythm, {n: by + late.get(n, 0) for n, by in later.items()}, until)
+        whole = {
+            name: self._with_ascent(name, plans[name]) if name in plans else plan
+            for name, plan in zip(self.names, self.ways.plans, strict=True)
+        }
+        begins = {name: set_out(law).start_time for name, law in laws.items()}
+        laws |= {name: _behind(ascent, laws[name]) for name, ascent in ascents.items()}
+        ways = replace(self.ways, settled=laws).along(whole, self.separation)
+        return self._compared(ways, rhythm, begins), dict(later)
+
+    def _rising(self, plans: Mapping[str, AnyPlan]) -> list[tuple[FleetMember, SpatialPlan]]:
+        """The patrols that take off, and their ascents."""
+        each = zip(self.ways.members, self.ways.plans, strict=True)
+        return [
+            (one, ascent_of(plan))
+            for one, plan in each
+            if one.name in plans and isinstance(plan, SpatialPlan) and takes_off(plan)
+        ]
+
+    def _with_ascent(self, name: str, laps: AnyPlan) -> AnyPlan:
+        """Several laps of a patrol, and what it flies before them."""
+        laid = self.ways.plans[self.names.index(name)]
+        if isinstance(laid, SpatialPlan) and isinstance(laps, SpatialPlan) and takes_off(laid):
+            return after_ascent(laid, laps)
+        return laps
 
     def _compared(
-        self, ways: FleetWays, rhythm: PatrolRhythm, laws: Mapping[str, Trajectory]
+        self, ways: FleetWays, rhythm: PatrolRhythm, begins: Mapping[str, float]
     ) -> FleetWays:
-        """The ways with patrols that, if they were alone, would begin each round when they do."""
+        """The ways with patrols that, if they were alone, would begin each round when they do.
+
+        Args:
+            ways: With all of their laps.
+            rhythm: Of the patrols.
+            begins: When each begins its first one [s], by name.
+        """
         packed, rides = ways.courses.packed, ways.rides
         alone, by_clock = rides.alone.copy(), copied_laws(rides.laws.packed)
         for robot, name in enumerate(self.names):
-            if name not in laws:
+            if name not in begins:
                 continue
             part = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
             nodes = packed.distance[part]
-            laps = rhythm.laps[name]
-            ends = seams_of(ways.plans[robot].path, ways.plans[robot].mission.route.laps)[::laps]
-            begun = rhythm.rounds[name].trajectory.delayed(float(set_out(laws[name]).start_time))
-            law = on_nodes(repeated_law(begun, ends, rhythm.period), nodes)
+            laps, plan = rhythm.laps[name], ways.plans[robot]
+            ends = seams_of(plan.path, plan.mission.route.laps, spans_before_laps(plan))[::laps]
+            begun = rhythm.rounds[name].trajectory
+            begun = begun.delayed(begins[name] - begun.start_time)
+            law = repeated_law(begun, ends - ends[0], rhythm.period)
+            if ends[0] > 0.0:
+                laid = self.ways.plans[robot]
+                assert isinstance(laid, SpatialPlan)
+                up = ascent_of(laid).trajectory
+                law = _behind(up.delayed(law.start_time - up.end_time), law)
+            law = on_nodes(law, nodes)
             arrive, leave, speed = law_at_nodes(law, nodes)
             by_clock.arrive[part], by_clock.leave[part] = arrive, leave
             by_clock.speed[part] = speed
@@ -213,6 +280,11 @@ class _AskedPatrols:
         return float(self.ways.courses.packed.reach[robot])
 
 
+def _behind(ascent: Trajectory, laps: Trajectory) -> Trajectory:
+    """The law of a patrol that hovers from when it has taken off until its laps begin."""
+    return laws_in_a_row([ascent, laps.moved(float(ascent.distances[-1]))])
+
+
 def _among(
     asked: _AskedPatrols, rhythm: PatrolRhythm, out: dict[int, int], periods: int, serve: Serve
 ) -> TimedFleet | dict[int, int]:
@@ -229,7 +301,9 @@ def _among(
     until = max(SPARE_SHARE * float(ends), begins) + periods * period
     extensions = 0
     for _ in range(MOST_ROUNDS):
-        timed = serve(asked.unrolled(rhythm, later, until), out)
+        ways, later = asked.unrolled(rhythm, later, until)
+        begins = max(law.start_time + later[n] * period for n, law in rhythm.laws.items())
+        timed = serve(ways, out)
         blocked = {robot: by for robot, by in timed.timing.blocked.items() if robot not in out}
         held = {
             names[patrol]

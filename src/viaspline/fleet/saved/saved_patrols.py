@@ -13,6 +13,7 @@ import numpy as np
 from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.patrols.driven_laps import seams_of
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
+from viaspline.fleet.patrols.take_off_first import spans_before_laps
 from viaspline.fleet.saved.fleet_file import FleetFile
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.trajectory.trajectory import Trajectory
@@ -61,18 +62,19 @@ def checked_patrols(
 def _comes_again(plan: AnyPlan, patrols: FleetPatrols, name: str) -> bool:
     """Whether a patrol is, from when it sets out on, a round farther after each period."""
     laps, law = plan.mission.route.laps, plan.trajectory
-    path, rounds = plan.path, patrols.laps[name]
+    rounds, before = patrols.laps[name], spans_before_laps(plan)
     begins, period = patrols.begins[name], patrols.period
-    if law.end_time < patrols.planned_until - period or len(path.spans) % laps or rounds > laps:
+    spans = plan.path.spans[before:]
+    if law.end_time < patrols.planned_until - period or len(spans) % laps or rounds > laps:
         return False
-    a_lap = len(path.spans) // laps
-    spans = path.spans
+    a_lap = len(spans) // laps
     if not np.allclose(spans[a_lap:], spans[: len(spans) - a_lap], rtol=0.0, atol=SAME):
         return False
-    if law.distance_at(begins) > SAME or begins > patrols.repeats_from + SAME:
+    seams = seams_of(plan.path, laps, before)
+    late = float(law.distance_at(begins)) - float(seams[0])
+    if late > SAME or begins > patrols.repeats_from + SAME:
         return False
-    farther = float(seams_of(path, laps)[rounds])
-    return _is_repeated(law, begins, period, farther)
+    return _is_repeated(law, begins, period, float(seams[rounds] - seams[0]))
 
 
 def _is_repeated(law: Trajectory, begins: float, period: float, farther: float) -> bool:

@@ -16,11 +16,6 @@ from viaspline.mission.space.spatial_checks import spatial_faults
 from viaspline.mission.space.spatial_parts import SpatialParts
 from viaspline.mission.unplaced_faults import Path, UnplacedFault
 
-TAKES_OFF: Final = (
-    "is a patrol that never ends and takes off, so that no lap ends where it began",
-    "let it start in the air (give its start a height, and leave out takeoff), or give its route "
-    "laps",
-)
 IN_THE_PLANE: Final = (
     "has no heights, and others of the fleet, or its world, have: robots on the ground and in "
     "the air aren't planned together",
@@ -56,8 +51,6 @@ def flying_faults(partial: PartialFleet, misshapen: Collection[Path]) -> list[Un
             faults.append(UnplacedFault(member.path, *IN_THE_PLANE))
             continue
         flying.append(member)
-        if member.is_patrol and member.parts.space is not None and member.parts.space.has_takeoff:
-            faults.append(UnplacedFault(member.path, *TAKES_OFF))
         for fault in _faults_of(member, partial, misshapen):
             if (fault.path, fault.problem) not in told:  # what is wrong with the world
                 told.add((fault.path, fault.problem))
