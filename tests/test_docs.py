@@ -37,6 +37,7 @@ def _links(page: Path) -> Iterator[str]:
             yield link
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TUTORIALS)
 def test_a_newcomer_who_follows_a_page_gets_what_it_shows(name: str, tmp_path: Path) -> None:
     page = ROOT / "docs" / f"{name}.md"

@@ -216,6 +216,7 @@ def test_it_never_touches_what_its_sensor_shows_in_time(
     assert np.all(acceleration[np.diff(run.times) > 1e-6] <= 1.0 + 1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("detours", [None, "local"])
 @given(st.integers(0, 10_000))
 @example(153)  # each stopped in a turn, and went on with its wheels straight

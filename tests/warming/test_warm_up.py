@@ -25,6 +25,7 @@ MISSION = vs.Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}}
 PLAIN, LIDAR = MissionKind(), MissionKind(("lidar",))
 
 
+@pytest.mark.slow
 @compiled
 @pytest.mark.parametrize(
     "kind",

@@ -106,6 +106,7 @@ finds = st.lists(
 )
 
 
+@pytest.mark.slow
 @given(finds)
 @example([(0, 0.1, 0.0, 2.0)])  # beside the start, where every lap ends
 @example([(3, 0.9, 0.1, 1.0), (0, 0.1, -0.1, 1.0)])
@@ -292,7 +293,8 @@ CART = {
 }
 
 
-@pytest.mark.parametrize("drive", [pytest.param({}, marks=pytest.mark.slow), CART])
+@pytest.mark.slow
+@pytest.mark.parametrize("drive", [{}, CART])
 def test_with_a_lidar_the_path_ahead_is_a_round_too(drive: dict[str, Any]) -> None:
     robot = {"radius_m": 0.3, "clearance_m": 0.15, "max_speed_mps": 1.5, "sensor": LIDAR, **drive}
     unseen = [disc(3.5, -0.1, 0.25, "post"), disc(8.5, 2.5, 0.5, "beside")]

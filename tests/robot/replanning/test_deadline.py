@@ -208,6 +208,7 @@ def rounds(seed: int) -> Mission:
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2))
 def test_three_laps_past_what_a_short_sight_finds_are_driven_to_their_end(seed: int) -> None:
     """Once 8 of 12 such robots stood for ever: askew, or short of time for all the laps to come."""

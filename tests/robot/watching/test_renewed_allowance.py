@@ -124,6 +124,7 @@ def test_where_more_cannot_be_kept_the_robot_stops_and_says_so(
     assert (np.abs(done.track[inside, 2]) < 0.82 - 0.3).all()
 
 
+@pytest.mark.slow
 def test_a_robot_with_a_lidar_keeps_more_too(
     slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle]
 ) -> None:

@@ -96,6 +96,7 @@ def test_what_stands_in_the_way_for_good_ends_the_flight_before_it_with_its_name
     assert gaps[-1] >= 0.0
 
 
+@pytest.mark.slow
 def test_what_goes_away_again_is_waited_for() -> None:
     gate = moves("gate", 25.0, [[0, 40, 0, 10], [5, 40, 0, 10], [8, 40, 0, 110]])
     plan = plan_spatial(mission([gate], reach=30))

@@ -22,6 +22,7 @@ TOP = 3.0
 PASSIVE = {"max_speed_mps": TOP, "safety": "passive"}
 
 
+@pytest.mark.slow
 @settings(max_examples=4)
 @given(seed=st.integers(0, 100_000))
 def test_nothing_touches_a_robot_under_way(seed: int) -> None:
