@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Final, Literal
 
@@ -115,9 +116,14 @@ def certify_heights(curve: PiecewiseCubic, world: SpatialWorld) -> HeightCertifi
         raise GeometryError(f"a curve of dimension {curve.dimension} has no heights; give it z")
     spans = np.array(curve.spans)  # numba compiles read-only arrays once more
     band = world.band
-    least, greatest = _extreme(curve, spans, 1.0), _extreme(curve, spans, -1.0)
-    low = _above_ground(curve, world.packed, spans, 1.0, band.least_above_ground)
-    high = _above_ground(curve, world.packed, spans, -1.0, band.most_above_ground)
+    least, greatest, low, high = _placed(
+        curve,
+        (
+            *_extremes(spans),
+            _above_ground(world.packed, spans, 1.0, band.least_above_ground),
+            _above_ground(world.packed, spans, -1.0, band.most_above_ground),
+        ),
+    )
     margins: dict[HeightLimit, float] = {}
     if band.lowest > -math.inf:
         margins["lowest"] = least.height - band.lowest
@@ -130,21 +136,24 @@ def certify_heights(curve: PiecewiseCubic, world: SpatialWorld) -> HeightCertifi
     return HeightCertificate(least, greatest, low, high, margins)
 
 
-def _bound(curve: PiecewiseCubic, height: float, u: float) -> HeightBound:
-    x, y, z = np.asarray(curve.evaluate(u)).tolist()
-    return HeightBound(height, (x, y, z), u)
+def _placed(curve: PiecewiseCubic, found: Iterable[tuple[float, float]]) -> Iterator[HeightBound]:
+    """Heights, each with the parameter where it is, and with its place."""
+    heights, parameters = zip(*found, strict=True)
+    places = np.asarray(curve.evaluate(np.array(parameters))).tolist()
+    for height, (x, y, z), u in zip(heights, places, parameters, strict=True):
+        yield HeightBound(height, (x, y, z), u)
 
 
-def _extreme(curve: PiecewiseCubic, spans: Floats, sign: float) -> HeightBound:
-    """The lowest place of a curve, or with sign -1 the highest, from where its height turns."""
-    z = sign * spans[:, :, 2]
+def _extremes(spans: Floats) -> Iterator[tuple[float, float]]:
+    """The least and the greatest height of a curve, from where that turns, and their parameters."""
+    z = spans[:, :, 2]
     parameters = _turning(z)
     u = 1.0 - parameters
     heights = u**3 * z[:, :1] + 3.0 * u * u * parameters * z[:, 1:2]
     heights += 3.0 * u * parameters**2 * z[:, 2:3] + parameters**3 * z[:, 3:]
-    span, k = np.unravel_index(int(heights.argmin()), heights.shape)
-    height = sign * float(heights[span, k])
-    return _bound(curve, height, float(span) + float(parameters[span, k]))
+    for found in (int(heights.argmin()), int(heights.argmax())):
+        span, k = divmod(found, heights.shape[1])
+        yield float(heights[span, k]), float(span) + float(parameters[span, k])
 
 
 def _turning(z: Floats) -> Floats:
@@ -164,13 +173,16 @@ _FINER: Final = (0.1 * HEIGHT_TOLERANCE_M, 0.01 * HEIGHT_TOLERANCE_M, 0.1 * HEIG
 
 
 def _above_ground(
-    curve: PiecewiseCubic, space: PackedSpace, spans: Floats, sign: float, limit: float
-) -> HeightBound:
-    """A bound of the height above ground, so tight that it tells whether a limit is kept."""
+    space: PackedSpace, spans: Floats, sign: float, limit: float
+) -> tuple[float, float]:
+    """A bound of the height above ground, and the parameter where it is about so high.
+
+    It is so tight that it tells whether a limit is kept.
+    """
     required = sign * limit - HEIGHT_SLACK_M
     lower, upper, span, w = least_height(space, spans, sign, HEIGHT_TOLERANCE_M)
     for tolerance in _FINER if math.isfinite(limit) else ():
         if lower >= required or upper < required:
             break
         lower = max(lower, least_height(space, spans, sign, tolerance)[0])
-    return _bound(curve, sign * lower, float(span + w))
+    return sign * lower, float(span + w)

@@ -5,7 +5,8 @@ keeps within two bounds of a plane, and the height over a plane is a cubic, whic
 than its lowest Bézier coefficient. Over single patches the plane is that of the ground at the
 piece's middle, and what is left of the bilinear term is bounded by the piece's size. What that
 doesn't settle is halved; so where the curve goes from patch to patch, either one's ground is
-continued beyond its edge.
+continued beyond its edge. The span that may be lowest comes first: the lower a height is known, the
+more of the others are settled as a whole.
 
 Tested through ``curve/test_height_certificate``.
 """
@@ -18,13 +19,14 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.halving import halve_piece, load_span
-from viaspline.kernels.jit import inlined, kernel, uncounted
+from viaspline.kernels.jit import inlined, kernel
 from viaspline.kernels.space.ground_pyramid import ground_height, has_terrain
 from viaspline.kernels.space.packed_space import PackedSpace
 
 MAX_DEPTH = 64  # halvings of a span
 MAX_PIECES = 1_000_000  # that a bound may take
 SAME_PLACE_M = 1e-6  # a piece so small that partly lies over unknown ground lies over it [m]
+LEAST_M = 1e-9  # a piece so small isn't halved any more [m]
 PIECE = 14  # four control points and the parameters of the ends
 
 
@@ -90,11 +92,15 @@ def _over_cell(space: PackedSpace, piece: Floats, level: int, i: int, j: int, si
     return bound - (plane[4] if sign > 0.0 else -plane[3])
 
 
-@uncounted
-def piece_height(space: PackedSpace, piece: Floats, sign: float) -> tuple[float, float]:
+@inlined
+def _piece_height(
+    space: PackedSpace, piece: Floats, sign: float, needed: float
+) -> tuple[float, float]:
     """Bound of sign times the height above ground of a piece, and the size of the piece in plan.
 
-    Over ground that isn't known it is inf, or -inf where that blocks and sign is 1.
+    Over ground that isn't known it is inf, or -inf where that blocks and sign is 1. Where it is
+    found to be less than is needed [m], it may be less still: then the piece has to be halved. Of
+    one so small that it counts as one place it is the bound.
     """
     frame = space.ground_frame
     x_low, x_high, y_low, y_high = np.inf, -np.inf, np.inf, -np.inf
@@ -131,7 +137,27 @@ def piece_height(space: PackedSpace, piece: Floats, sign: float) -> tuple[float,
             else:
                 over = _over_cell(space, piece, level, i, j, sign)
             bound = min(bound, over)
+            if bound < needed and size >= SAME_PLACE_M:
+                return bound, size
     return bound, size
+
+
+@inlined
+def _over_ground(
+    space: PackedSpace, x: float, y: float, z: float, sign: float, blocked: float
+) -> float:
+    """Sign times the height of a place above ground [m]; ``blocked`` where that isn't known."""
+    height = sign * (z - ground_height(space, x, y))
+    return blocked if math.isnan(height) else height
+
+
+@inlined
+def _middle_height(space: PackedSpace, piece: Floats, sign: float, blocked: float) -> float:
+    """As ``_over_ground``, of the middle of a piece."""
+    x = 0.125 * (piece[0] + 3.0 * (piece[3] + piece[6]) + piece[9])
+    y = 0.125 * (piece[1] + 3.0 * (piece[4] + piece[7]) + piece[10])
+    z = 0.125 * (piece[2] + 3.0 * (piece[5] + piece[8]) + piece[11])
+    return _over_ground(space, x, y, z, sign, blocked)
 
 
 @kernel
@@ -155,40 +181,51 @@ def least_height(
     blocked = -np.inf if sign > 0.0 and space.ground_frame[4] == np.inf else np.inf
     upper, lower = np.inf, np.inf
     span_at, w_at = 0, 0.0
-    for joint in range(spans.shape[0] + 1):
-        span = min(joint, spans.shape[0] - 1)
+    count = spans.shape[0]
+    for joint in range(count + 1):
+        span = min(joint, count - 1)
         place = spans[span, 3 * (joint - span)]
-        height = sign * (place[2] - ground_height(space, place[0], place[1]))
-        if math.isnan(height):
-            height = blocked
+        height = _over_ground(space, place[0], place[1], place[2], sign, blocked)
         if height < upper:
             upper, span_at, w_at = height, span, float(joint - span)
     stack = np.empty((MAX_DEPTH, PIECE))
-    pieces = 0
-    for span in range(spans.shape[0]):
+    bounds = np.empty(count)
+    first = 0
+    for span in range(count):
         load_span(stack, spans, span, 3)
-        top = 0
+        bounds[span] = _piece_height(space, stack[0], sign, -np.inf)[0]
+        height = _middle_height(space, stack[0], sign, blocked)
+        if height < upper:
+            upper, span_at, w_at = height, span, 0.5
+        if bounds[span] < bounds[first]:
+            first = span
+    pieces = 0
+    for number in range(count):
+        span = first if number == 0 else number - 1 if number <= first else number
+        if bounds[span] >= upper - tolerance or upper == -np.inf:
+            lower = min(lower, bounds[span])
+            continue
+        load_span(stack, spans, span, 3)
+        halve_piece(stack, 0, 3)
+        top = 1
         while top >= 0:
             pieces += 1
             if pieces > MAX_PIECES:
                 return -np.inf, upper, span_at, w_at
             piece = stack[top]
-            bound, size = piece_height(space, piece, sign)
+            is_last = top + 2 > MAX_DEPTH
+            needed = -np.inf if is_last else upper - tolerance
+            bound, size = _piece_height(space, piece, sign, needed)
             if bound >= upper - tolerance or upper == -np.inf:
                 lower = min(lower, bound)
                 top -= 1
                 continue
-            x = 0.125 * (piece[0] + 3.0 * (piece[3] + piece[6]) + piece[9])
-            y = 0.125 * (piece[1] + 3.0 * (piece[4] + piece[7]) + piece[10])
-            z = 0.125 * (piece[2] + 3.0 * (piece[5] + piece[8]) + piece[11])
-            height = sign * (z - ground_height(space, x, y))
-            if math.isnan(height):
-                height = blocked
+            height = _middle_height(space, piece, sign, blocked)
             if bound == -np.inf and size < SAME_PLACE_M:
                 height = blocked
             if height < upper:
                 upper, span_at, w_at = height, span, 0.5 * (piece[12] + piece[13])
-            if bound >= upper - tolerance or top + 2 > MAX_DEPTH or size < 1e-9:
+            if is_last or size < LEAST_M:
                 lower = min(lower, bound)
                 top -= 1
             else:

@@ -94,7 +94,7 @@ def fill_pyramid(
                 tops[row] = top
 
 
-@uncounted
+@inlined
 def patch_at(space: PackedSpace, x: float, y: float) -> tuple[int, int, float, float]:
     """The patch that (x, y) lies in, and where in it in parts of its sides.
 
@@ -111,7 +111,7 @@ def patch_at(space: PackedSpace, x: float, y: float) -> tuple[int, int, float, f
     return i, j, px - i, py - j
 
 
-@uncounted
+@inlined
 def ground_height(space: PackedSpace, x: float, y: float) -> float:
     """Height of the ground at (x, y) [m]: nan where none is known, -inf without any ground."""
     if not has_terrain(space):
