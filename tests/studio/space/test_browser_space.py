@@ -270,6 +270,73 @@ def test_a_flight_is_played_in_all_views(visit: Visit, file: Path) -> None:
     page.until("studio.space.solid.moving.children.length >= 2")  # the robot and its trail
 
 
+MOVERS = """\
+world:
+  altitude: {min_m: 2, max_m: 60, above: home}
+  ground: {flat_m: 0}
+  known:
+    - name: hook
+      ball: {center: [0, 0, 1], radius: 1}
+      motion: {keyframes: [[0, 20, -30, 0, 20], [10, 20, 30, 0, 10]], after: bounce}
+  unseen:
+    - name: kite
+      circle: {center: [0, 0], radius: 1}
+      height_m: [-1, 2]
+      motion: {from: [60, -20, 5], velocity_mps: [0, 1, 0.25]}
+robot: {radius_m: 0.4, clearance_m: 1, max_speed_mps: 5, sensor: {range_m: 15}}
+route: {start: [0, 0, 10], goal: [80, 0, 10]}
+"""
+
+
+def test_what_moves_in_a_flight_is_shown_in_3d_and_keeps_its_heights(
+    visit: Visit, tmp_path: Path
+) -> None:
+    """Seen or not: where its motion has it, as high as that says, also when it is edited."""
+    file = tmp_path / "movers.yaml"
+    file.write_text(MOVERS)
+    page = visit(file)
+    moved, straight, stands, frame = page.js(
+        """async () => {
+          const edits = await import("/page/js/core/motion_edits.js");
+          const { shapeOf } = await import("/page/js/shapes/registry.js");
+          const doc = studio.store.doc, kite = doc.world.unseen[0];
+          const straight = edits.setManner(doc, "known:0", "straight", 5).world.known[0];
+          const stands = edits.setManner(doc, "unseen:0", "stands", 2).world.unseen[0];
+          const more = edits.addKeyframe(doc, "known:0", 0).world.known[0];
+          return [shapeOf(kite).movedTo(kite, [1, 2]).motion.from, straight.motion, stands,
+                  more.motion.keyframes[1]];
+        }"""
+    )
+    assert moved == [1, 2, 5]
+    assert straight["from"] == [20, -30, 15]
+    assert straight["velocity_mps"] == [0, 6, 0]
+    assert "motion" not in stands
+    assert stands["height_m"] == pytest.approx([4.5, 7.5])
+    assert stands["circle"]["center"] == pytest.approx([60, -18])
+    assert frame == [5, 20, 0, 0, 15]
+    page.page.get_by_role("button", name="Drive", exact=True).click()
+    page.until("!!studio.drive.run && studio.space.solid?.drawn > 0")
+    page.js("studio.drive.pause()")
+    page.js("studio.drive.seek(6)")
+    page.js(
+        """() => { window.movers = () => {
+          const view = studio.space.solid;
+          const found = view.moving.children.find(one => one.children.length === 2
+            && one.children[0].geometry.type === "SphereGeometry");
+          return found?.children.map(({position: p, material}) =>
+            [p.x + view.origin[0], p.y + view.origin[1], p.z + view.origin[2], material.opacity]);
+        }; }"""
+    )
+    page.until("window.movers()?.[0][1] > 5")
+    hook, kite = page.js("window.movers()")
+    assert hook == pytest.approx([20, 6, 15, 1])
+    assert kite == pytest.approx([60, -14, 6.5, 0.35])
+    seen = page.js("studio.drive.run.sight.seen[0]")
+    assert seen > 6
+    page.js("time => studio.drive.seek(time)", seen + 0.2)
+    assert page.js("studio.drive.hasSeen(0)")
+
+
 def test_new_points_are_as_high_as_those_beside_them(visit: Visit, file: Path) -> None:
     page = visit(file)
     page.press("a")

@@ -248,6 +248,21 @@ def test_a_flight_is_told_with_its_heights_and_what_the_sensor_saw(
     assert surprised["clearance"] >= 1 - 1e-6
 
 
+def test_what_moves_unseen_is_told_when_the_sensor_first_shows_it(start: Start, file: Path) -> None:
+    bird = {"name": "bird", "ball": {"center": [0, 0, 0], "radius": 1},
+            "motion": {"from": [40, 30, 12], "velocity_mps": [0, -2, 0]}}  # fmt: skip
+    with start(file).client() as client:
+        client.edit([["world", "unseen"], [bird]], [["robot", "sensor"], {"range_m": 15}])
+        run = client.ask("drive", "driven")
+    (seen,) = run["sight"]["seen"]
+    samples = run["samples"]
+    at = np.column_stack([samples[axis] for axis in "xyz"])
+    times = np.array(samples["time"])
+    away = np.linalg.norm(at - [40, 30, 12] - times[:, None] * [0, -2, 0], axis=1) - 1.0
+    first = float(times[int(np.argmax(away <= 15.0))])
+    assert abs(seen - first) <= 0.15
+
+
 def test_the_files_of_a_plan_are_those_of_the_command_line(start: Start, file: Path) -> None:
     with start(file).client() as client:
         whole(client, client.edit())

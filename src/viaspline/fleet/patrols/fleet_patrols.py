@@ -19,7 +19,7 @@ class FleetPatrols:
     Attributes:
         period: [s].
         laps: How many laps each drives in a period, by name.
-        begins: When each sets out for the first time [s], by name.
+        begins: When each begins its first lap [s], by name: once it has taken off, if it does.
         repeats_from: From when on all is as it was a period before, but for a first one [s].
         planned_until: Until when the laps of all plans last at least [s].
     """

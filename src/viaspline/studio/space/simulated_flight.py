@@ -11,6 +11,8 @@ from typing import Any, Final
 import numpy as np
 
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.space.among.moving_solid import MovingSolid
+from viaspline.space.among.moving_solids import POINT, gaps_to
 from viaspline.space.spatial_run import SpatialReplan, SpatialRun
 from viaspline.studio.page_numbers import finite, flat, rounded
 from viaspline.world.space.spatial_world import SpatialWorld
@@ -113,8 +115,12 @@ def _sight(run: SpatialRun) -> dict[str, Any] | None:
 
 def _first_seen(run: SpatialRun, one: Obstacle, reach: float) -> float | None:
     if one.motion is not None:
-        return None
-    radius, half = run.plan.world.packed.core.tolist()
-    world = SpatialWorld.of([one.solid()], core_radius=radius, core_half_height=half)
-    near = np.flatnonzero(np.asarray(world.distance(run.positions)) <= reach)
+        begin, end = float(run.times[0]), float(run.times[-1])
+        solid = MovingSolid.of(one, one.name or "unseen", begin, end)
+        away = gaps_to(solid, POINT, run.positions, run.times)
+    else:
+        radius, half = run.plan.world.packed.core.tolist()
+        world = SpatialWorld.of([one.solid()], core_radius=radius, core_half_height=half)
+        away = np.asarray(world.distance(run.positions))
+    near = np.flatnonzero(away <= reach)
     return float(run.times[near[0]]) if near.size else None

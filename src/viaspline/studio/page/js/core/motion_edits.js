@@ -1,6 +1,6 @@
 /** What can be done to how an obstacle moves: each edit takes a document and gives another one. */
 
-import { frameAt, outOf } from "../geometry/motion.js";
+import { frameAt, isLifted, outOf } from "../geometry/motion.js";
 import { withKeyframe } from "../shapes/moving.js";
 import { shapeOf, standingShapeOf } from "../shapes/registry.js";
 import { tidy } from "../units.js";
@@ -35,8 +35,10 @@ export function setManner(doc, id, manner, time) {
   const kept = error ? { error } : {};
   if (!frame) return doc;
   const [vx, vy] = item.motion ? [frame.vx, frame.vy] : [speed, 0];
-  const straight = { from: [tidy(frame.x - vx * time), tidy(frame.y - vy * time)], velocity_mps: [tidy(vx), tidy(vy)], ...kept };
-  const keyframes = [[tidy(time), tidy(frame.x), tidy(frame.y)], [tidy(time + FIRST_LASTS_S), tidy(frame.x + vx * FIRST_LASTS_S), tidy(frame.y + vy * FIRST_LASTS_S)]];
+  const isInSpace = isLifted(motion), z = tidy(frame.z);
+  const height = isInSpace ? [z] : [], level = isInSpace ? [0] : [], turned = isInSpace ? [0, z] : [];
+  const straight = { from: [tidy(frame.x - vx * time), tidy(frame.y - vy * time), ...height], velocity_mps: [tidy(vx), tidy(vy), ...level], ...kept };
+  const keyframes = [[tidy(time), tidy(frame.x), tidy(frame.y), ...turned], [tidy(time + FIRST_LASTS_S), tidy(frame.x + vx * FIRST_LASTS_S), tidy(frame.y + vy * FIRST_LASTS_S), ...turned]];
   return replaced(doc, path, { ...moving, motion: manner === "straight" ? straight : { keyframes, after: "bounce", ...kept } });
 }
 
@@ -51,15 +53,33 @@ function begun({ pass_on: _, never_pass_on: __, ...item }) {
 function stopped({ motion, ...item }, time) {
   const frame = frameAt(motion, time) ?? frameAt({ ...motion, before: "stay", after: "stay" }, time);
   const shape = standingShapeOf(item);
-  return frame && shape ? shape.mapped(item, (at) => outOf(frame, at).map(tidy)) : item;
+  return frame && shape ? raised(shape.mapped(item, (at) => outOf(frame, at).map(tidy)), frame.z) : item;
 }
 
-/** Set one number of a keyframe; a heading that is null is taken out. @param {Doc} doc @param {string} id @param {number} index @param {number} axis 0 to 3: t, x, y, heading @param {number|null} value */
+/** With all of its heights so much higher. @param {any} item @param {number} by [m] */
+function raised(item, by) {
+  if (!by) return item;
+  const up = (/** @type {number[]} */ at) => at.map((value, i) => (i === 2 ? tidy(value + by) : value));
+  const { ball, box, capsule, height_m } = item;
+  return {
+    ...item,
+    ...(ball ? { ball: { ...ball, center: up(ball.center) } } : {}),
+    ...(box ? { box: { ...box, min: up(box.min), max: up(box.max) } } : {}),
+    ...(capsule ? { capsule: { ...capsule, from: up(capsule.from), to: up(capsule.to) } } : {}),
+    ...(height_m ? { height_m: height_m.map((/** @type {number} */ value) => tidy(value + by)) } : {}),
+  };
+}
+
+/** Set one number of a keyframe; a heading that is null is taken out. @param {Doc} doc @param {string} id @param {number} index @param {number} axis 0 to 4: t, x, y, heading, z @param {number|null} value */
 export function setKeyframe(doc, id, index, axis, value) {
   const path = [...pathOf(id), "motion", "keyframes", index];
   const frame = [...part(doc, path)];
-  if (value !== null) frame[axis] = value;
+  if (value !== null) {
+    if (axis === 4) frame[3] ??= 0;
+    frame[axis] = value;
+  } else if (axis === 3 && frame.length > 4) frame[3] = 0;
   else if (axis === 3) frame.length = 3;
+  else if (axis === 4) frame.length = Math.min(frame.length, 4);
   else return doc;
   return replaced(doc, path, frame);
 }

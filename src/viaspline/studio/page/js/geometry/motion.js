@@ -6,23 +6,27 @@
 const TRAIL_PIECES = 60;
 const JUMP_RATIO = 1.5; // a step longer than it goes in its time is a jump
 
-/** @typedef {{x: number, y: number, heading: number, vx: number, vy: number}} Frame a place [m], a heading [rad], a velocity [m/s] */
+/** @typedef {{x: number, y: number, z: number, heading: number, vx: number, vy: number}} Frame a place [m], z 0 in the plane; a heading [rad], a velocity [m/s] */
 /** @typedef {Record<string, any>} Motion */
 
 /** Whether a motion says where something is. @param {any} motion */
 export function isMotion(motion) {
-  const pair = (/** @type {any} */ p) => Array.isArray(p) && p.length === 2 && p.every(Number.isFinite);
-  const frame = (/** @type {any} */ k) => Array.isArray(k) && k.length >= 3 && k.length <= 4 && k.every(Number.isFinite);
+  const pair = (/** @type {any} */ p) => Array.isArray(p) && p.length >= 2 && p.length <= 3 && p.every(Number.isFinite);
+  const frame = (/** @type {any} */ k) => Array.isArray(k) && k.length >= 3 && k.length <= 5 && k.every(Number.isFinite);
   const { keyframes } = motion ?? {};
   return Array.isArray(keyframes) ? keyframes.length > 0 && keyframes.every(frame) : pair(motion?.from) && pair(motion?.velocity_mps);
 }
+
+/** Whether a motion says heights: it is one in space. @param {Motion} motion */
+export const isLifted = ({ keyframes, from }) => (keyframes ? keyframes.some((/** @type {number[]} */ k) => k.length > 4) : from.length > 2);
 
 /** @param {Motion} motion @param {number} time [s] @returns {Frame|null} null while it isn't there */
 export function frameAt(motion, time) {
   const { keyframes: frames } = motion;
   if (!frames) {
-    const [vx, vy] = motion.velocity_mps;
-    return { x: motion.from[0] + vx * time, y: motion.from[1] + vy * time, heading: 0, vx, vy };
+    const [vx, vy, vz = 0] = motion.velocity_mps;
+    const [x, y, z = 0] = motion.from;
+    return { x: x + vx * time, y: y + vy * time, z: z + vz * time, heading: 0, vx, vy };
   }
   const first = frames[0][0], last = frames.at(-1)[0], lasts = last - first;
   const goesOn = motion.after === "loop" || motion.after === "bounce";
@@ -53,19 +57,26 @@ function between(frames, time, way) {
   const a = frames[low], b = frames[low + 1] ?? a;
   const lasts = b[0] - a[0] || 1;
   const share = Math.min(Math.max((time - a[0]) / lasts, 0), 1);
-  const from = headingOf(frames, low), to = headingOf(frames, Math.min(low + 1, frames.length - 1));
+  const next = Math.min(low + 1, frames.length - 1);
+  const from = headingOf(frames, low), to = headingOf(frames, next), z = heightOf(frames, low);
   return {
-    x: a[1] + share * (b[1] - a[1]), y: a[2] + share * (b[2] - a[2]), heading: from + share * (to - from),
+    x: a[1] + share * (b[1] - a[1]), y: a[2] + share * (b[2] - a[2]), z: z + share * (heightOf(frames, next) - z), heading: from + share * (to - from),
     vx: (way * (b[1] - a[1])) / lasts, vy: (way * (b[2] - a[2])) / lasts,
   };
 }
 
 /** @param {number[][]} frames @param {number} index @returns {Frame} */
-const standing = (frames, index) => ({ x: frames[index][1], y: frames[index][2], heading: headingOf(frames, index), vx: 0, vy: 0 });
+const standing = (frames, index) => ({ x: frames[index][1], y: frames[index][2], z: heightOf(frames, index), heading: headingOf(frames, index), vx: 0, vy: 0 });
 
 /** The heading of a keyframe [rad]: its own, or that of one before. @param {number[][]} frames @param {number} index */
 function headingOf(frames, index) {
   for (let i = index; i >= 0; i -= 1) if (frames[i].length > 3) return (frames[i][3] * Math.PI) / 180;
+  return 0;
+}
+
+/** The height of a keyframe [m]: its own, or that of one before. @param {number[][]} frames @param {number} index */
+function heightOf(frames, index) {
+  for (let i = index; i >= 0; i -= 1) if (frames[i].length > 4) return frames[i][4];
   return 0;
 }
 

@@ -2,6 +2,7 @@
 
 import { addKeyframe, mannerOf, setAfter, setError, setKeyframe, setManner } from "../core/motion_edits.js";
 import { part, pathOf, replaced } from "../core/mission.js";
+import { isLifted } from "../geometry/motion.js";
 import { erase } from "../input/keyboard.js";
 import { fewestOf } from "../shapes/moving.js";
 import { choice, h, icon, iconButton, numberField } from "./dom.js";
@@ -10,6 +11,7 @@ const MOST_ROWS = 12; // of keyframes, about the one that is selected
 /** @type {[string, string][]} */
 const AFTER = [["loop", "begins again"], ["bounce", "goes back"], ["stay", "stays there"], ["vanish", "is gone"]];
 const COLUMNS = [["t", "s"], ["x", "m"], ["y", "m"], ["heading", "°"]]; // of a keyframe
+const LIFTED = [...COLUMNS, ["z", "m"]]; // of one in space
 
 /** @param {any} app @param {string} owner the obstacle's id @param {number} selected a keyframe, or -1 */
 export function motionFields(app, owner, selected) {
@@ -38,7 +40,7 @@ function velocity({ store }, owner, motion) {
     label, unit: "m/s", value: motion.velocity_mps[axis],
     set: (value) => value !== null && store.edit(replaced(store.doc, [...pathOf(owner), "motion", "velocity_mps", axis], value), { merge: `velocity:${owner}` }),
   });
-  return h("div", { class: "pair" }, one("Velocity in x", 0), one("in y", 1));
+  return h("div", { class: "pair" }, one("Velocity in x", 0), one("in y", 1), isLifted(motion) ? one("in z", 2) : null);
 }
 
 /** @param {any} app @param {string} owner @param {any} motion @param {string} label @param {"position_m"|"growth_mps"} key @param {string} unit */
@@ -56,10 +58,11 @@ function keyframes(app, owner, motion, selected) {
   const first = Math.max(0, Math.min(selected - (MOST_ROWS >> 1), all.length - MOST_ROWS));
   const shown = all.slice(first, first + MOST_ROWS);
   const after = selected >= 0 ? selected : all.length - 1;
+  const columns = isLifted(motion) ? LIFTED : COLUMNS;
   return [
-    h("div", { class: "keyframes", role: "table", "aria-label": "Keyframes" },
-      h("div", { class: "keyframe is-head", role: "row" }, ...COLUMNS.map(([name, unit], axis) => h("span", { role: "columnheader" }, axis === 3 ? `${name} ${unit}` : `${name} [${unit}]`)), h("span", {})),
-      ...shown.map((/** @type {number[]} */ frame, /** @type {number} */ i) => row(app, owner, frame, first + i, first + i === selected, all.length > fewestOf(motion)))),
+    h("div", { class: `keyframes${isLifted(motion) ? " is-lifted" : ""}`, role: "table", "aria-label": "Keyframes" },
+      h("div", { class: "keyframe is-head", role: "row" }, ...columns.map(([name, unit], axis) => h("span", { role: "columnheader" }, axis === 3 ? `${name} ${unit}` : `${name} [${unit}]`)), h("span", {})),
+      ...shown.map((/** @type {number[]} */ frame, /** @type {number} */ i) => row(app, owner, { frame, index: first + i, columns, isSelected: first + i === selected, isSpare: all.length > fewestOf(motion) }))),
     all.length > shown.length ? h("p", { class: "hint" }, `${first + 1} to ${first + shown.length} of ${all.length}; select another on the map`) : null,
     h("button", {
       type: "button", class: "button",
@@ -72,14 +75,17 @@ function keyframes(app, owner, motion, selected) {
   ];
 }
 
-/** @param {any} app @param {string} owner @param {number[]} frame @param {number} index @param {boolean} isSelected @param {boolean} isSpare whether it can be taken out */
-function row(app, owner, frame, index, isSelected, isSpare) {
+/**
+ * @param {any} app @param {string} owner
+ * @param {{frame: number[], index: number, columns: string[][], isSelected: boolean, isSpare: boolean}} keyframe whether it can be taken out is ``isSpare``
+ */
+function row(app, owner, { frame, index, columns, isSelected, isSpare }) {
   const { store } = app;
   const id = `${owner}:${index}`;
   const cell = (/** @type {string[]} */ [name, unit], /** @type {number} */ axis) => {
     const value = frame[axis];
     const input = h("input", {
-      type: "number", step: "any", value: value === undefined ? "" : String(Number(value.toFixed(4))), placeholder: axis === 3 ? "–" : undefined,
+      type: "number", step: "any", value: value === undefined ? "" : String(Number(value.toFixed(4))), placeholder: axis >= 3 ? "–" : undefined,
       "aria-label": `keyframe ${index + 1}, ${name} in ${unit}`,
       onchange: () => {
         const next = input.value === "" ? null : Number(input.value);
@@ -88,7 +94,7 @@ function row(app, owner, frame, index, isSelected, isSpare) {
     });
     return input;
   };
-  return h("div", { class: `keyframe${isSelected ? " is-selected" : ""}`, role: "row" }, ...COLUMNS.map(cell),
+  return h("div", { class: `keyframe${isSelected ? " is-selected" : ""}`, role: "row" }, ...columns.map(cell),
     isSpare ? iconButton("trash", `Delete keyframe ${index + 1}`, () => {
       store.select(id);
       erase(app);

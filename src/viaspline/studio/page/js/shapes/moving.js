@@ -3,7 +3,7 @@
  * motion carries along, so on the map its keyframes are what can be taken hold of.
  */
 
-import { frameAt } from "../geometry/motion.js";
+import { frameAt, isLifted } from "../geometry/motion.js";
 import { boxOf } from "../geometry/rings.js";
 import { tidy } from "../units.js";
 import { NO_VERTICES } from "./shape.js";
@@ -34,18 +34,19 @@ export function withKeyframe({ ...item }, after, at) {
   const place = at ?? (b && way ? [way.x, way.y] : beyond);
   const isTurned = frames.some((/** @type {number[]} */ k) => k.length > 3);
   const heading = isTurned && way ? [tidy((way.heading * 180) / Math.PI)] : [];
-  const frame = [tidy(time), tidy(place[0]), tidy(place[1]), ...heading];
+  const height = isLifted(motion) && way ? [tidy(way.z)] : [];
+  const frame = [tidy(time), tidy(place[0]), tidy(place[1]), ...heading, ...height];
   return withMotion(item, { ...motion, keyframes: [...frames.slice(0, after + 1), frame, ...frames.slice(after + 1)] });
 }
 
 /** The place that moves all of it. @param {Item} item @returns {Place} */
-const anchor = ({ motion }) => (motion.keyframes ? motion.keyframes[0].slice(1, 3) : motion.from);
+const anchor = ({ motion }) => (motion.keyframes ? motion.keyframes[0].slice(1, 3) : motion.from.slice(0, 2));
 
 /** @param {Item} item @param {Place} at @returns {Item} */
 function movedTo(item, at) {
   const { motion } = item;
   const from = anchor(item);
-  if (!motion.keyframes) return withMotion(item, { ...motion, from: at });
+  if (!motion.keyframes) return withMotion(item, { ...motion, from: [at[0], at[1], ...motion.from.slice(2)] });
   const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
   const moved = motion.keyframes.map((/** @type {number[]} */ [t, x, y, ...rest]) => [t, tidy(x + dx), tidy(y + dy), ...rest]);
   return withMotion(item, { ...motion, keyframes: moved });
@@ -69,7 +70,7 @@ export const movingShape = (inner) => ({
   svg: () => "",
   box(item) {
     const reach = inner.reach(item);
-    const box = boxOf(item.motion.keyframes ? item.motion.keyframes.map((/** @type {number[]} */ k) => k.slice(1, 3)) : [item.motion.from]);
+    const box = boxOf(item.motion.keyframes ? item.motion.keyframes.map((/** @type {number[]} */ k) => k.slice(1, 3)) : [item.motion.from.slice(0, 2)]);
     return box && box.map((value, i) => value + (i < 2 ? -reach : reach));
   },
   covers: (p, item) => inner.covers(p, item),
@@ -107,7 +108,7 @@ export const movingShape = (inner) => ({
     const place = snapped(at);
     if (role !== "velocity") return movedTo(item, place);
     const [x, y] = item.motion.from;
-    return withMotion(item, { ...item.motion, velocity_mps: [tidy((place[0] - x) / ARROW_S), tidy((place[1] - y) / ARROW_S)] });
+    return withMotion(item, { ...item.motion, velocity_mps: [tidy((place[0] - x) / ARROW_S), tidy((place[1] - y) / ARROW_S), ...item.motion.velocity_mps.slice(2)] });
   },
   fields: (item) => inner.fields(item),
 });

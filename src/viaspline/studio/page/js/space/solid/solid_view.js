@@ -4,6 +4,7 @@ import * as THREE from "../../../vendor/three.min.js";
 import { onTheme } from "../../draw/theme.js";
 import { solidColours } from "./colours.js";
 import { cleared } from "./meshes.js";
+import { moversOf } from "./mover_meshes.js";
 import { robotOf, trailOf } from "./robot_mesh.js";
 import { bandOf, dashed, gatesOf, handleOf, looksOf, losersOf, pathOf, pointsOf } from "./route_meshes.js";
 import { SolidPointer } from "./solid_pointer.js";
@@ -198,6 +199,9 @@ export class SolidView {
     if (handle) this.moving.add(handleOf(handle, origin, colours, this.perPixel));
     const state = drive.run ? drive.state() : store.cursor !== null ? store.curve.at(store.cursor) : preview.isOn && store.plan?.ok ? preview.state() : null;
     if (drive.run?.samples?.z) this.moving.add(trailOf(drive, origin, colours, this.size * 0.0022));
+    const isSeen = (/** @type {number} */ index) => !!drive.run && drive.hasSeen(index);
+    const movers = moversOf(store.doc, app.scene.time, origin, { colours, isSeen, size: this.size });
+    if (movers.children.length) this.moving.add(movers);
     if (state?.z !== undefined) this.moving.add(robotOf(state, store.doc.robot ?? {}, origin, { colours, isFlying: !!drive.run, size: this.size }));
   }
 
