@@ -53,7 +53,7 @@ def _config(mode: str, **ends: list[str]) -> Any:
     return config
 
 
-def until(happens: Any, seconds: float = 10.0) -> bool:
+def until(happens: Any, seconds: float = 60.0) -> bool:
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         if happens():
