@@ -42,8 +42,45 @@ def test_errors_are_those_that_it_reckons_with(wander: float, steps: int) -> Non
     for _ in range(300):
         estimate, state = followed(rng, wander, 0.05, steps)
         off = estimate.mean - state
-        squares.append(off @ np.linalg.solve(estimate.covariance, off))
+        one = estimate.axis
+        spread = np.kron([[one.place, one.both], [one.both, one.velocity]], np.eye(2))
+        squares.append(off @ np.linalg.solve(spread, off))
     assert 3.4 < np.mean(squares) < 4.6
+
+
+def by_matrices(
+    mean: np.ndarray, spread: np.ndarray, shown: np.ndarray, seen: np.ndarray, noise: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """A Kalman filter's correction as textbooks write it: mean and covariance."""
+    gain = spread @ shown.T @ np.linalg.inv(shown @ spread @ shown.T + noise)
+    return mean + gain @ (seen - shown @ mean), spread - gain @ shown @ spread
+
+
+@pytest.mark.parametrize("d", [2, 3])
+@pytest.mark.parametrize("seed", range(5))
+def test_it_is_the_filter_of_textbooks(d: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    mean = rng.normal(size=2 * d)
+    estimate = MotionEstimate.measured(0.0, mean, 0.1, 0.5)
+    spread = np.diag([0.1**2] * d + [0.5**2] * d)
+    for _ in range(6):
+        late, wander, error = rng.uniform(0.05, 1.0, 3)
+        estimate = estimate.foreseen(estimate.time + late, wander)
+        on = np.eye(2 * d) + late * np.eye(2 * d, k=d)
+        drift = [[late**3 / 3, late**2 / 2], [late**2 / 2, late]]
+        mean, spread = on @ mean, on @ spread @ on.T + wander**2 * np.kron(drift, np.eye(d))
+        seen = rng.normal(size=2 * d)
+        if rng.random() < 0.5:
+            estimate = estimate.with_place(seen[:d], error)
+            shown, noise, seen = np.eye(d, 2 * d), error**2 * np.eye(d), seen[:d]
+        else:
+            estimate = estimate.with_place_and_velocity(seen, error, 2.0 * error)
+            shown, noise = np.eye(2 * d), np.diag([error**2] * d + [4.0 * error**2] * d)
+        mean, spread = by_matrices(mean, spread, shown, seen, noise)
+    one = estimate.axis
+    assert estimate.mean == pytest.approx(mean, rel=1e-9, abs=1e-9)
+    both = np.kron([[one.place, one.both], [one.both, one.velocity]], np.eye(d))
+    assert both == pytest.approx(spread, rel=1e-7, abs=1e-9)
 
 
 @given(speeds, speeds, st.floats(0.01, 1.0), st.floats(0.05, 2.0))

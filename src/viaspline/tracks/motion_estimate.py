@@ -2,17 +2,38 @@
 
 Between looks it goes straight on, but for an acceleration that is white noise: its velocity
 wanders, by ``wander`` in one second (Bar-Shalom, Li and Kirubarajan: *Estimation with applications
-to tracking and navigation*, 6.2).
+to tracking and navigation*, 6.2). It wanders alike along every axis, and what is measured is
+measured alike along every axis: so all axes have one covariance, and none has to do with another.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
+
+
+class AxisCovariance(NamedTuple):
+    """How certain a place and a velocity along one axis are.
+
+    Attributes:
+        place: Variance of the place [m²].
+        both: Covariance of place and velocity [m²/s].
+        velocity: Variance of the velocity [m²/s²].
+    """
+
+    place: float
+    both: float
+    velocity: float
+
+    @property
+    def determinant(self) -> float:
+        """Of the covariance; never below 0, whatever rounding makes of it."""
+        return max(self.place * self.velocity - self.both**2, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,7 +44,7 @@ class MotionEstimate:
         time: [s].
         mean: A place [m], then a velocity [m/s]: x, y, vx, vy in the plane, x, y, z, vx, vy, vz in
             space; shape (2d,).
-        covariance: Of these, shape (2d, 2d).
+        axis: How certain these are along each axis.
 
     Example:
         >>> first = MotionEstimate.at_first_sight(0.0, (0.0, 0.0), 0.01, 2.0)
@@ -34,7 +55,7 @@ class MotionEstimate:
 
     time: float
     mean: Floats
-    covariance: Floats
+    axis: AxisCovariance
 
     @classmethod
     def at_first_sight(
@@ -63,7 +84,7 @@ class MotionEstimate:
             place_error: Standard deviation of each coordinate of the place [m].
             velocity_error: Standard deviation of each coordinate of the velocity [m/s].
         """
-        return cls(time, mean, np.diag(_variances(mean.size // 2, place_error, velocity_error)))
+        return cls(time, mean, AxisCovariance(place_error**2, 0.0, velocity_error**2))
 
     @property
     def dimension(self) -> int:
@@ -82,33 +103,23 @@ class MotionEstimate:
 
     @property
     def place_error(self) -> float:
-        """The standard deviation of its place in the direction in which that is largest [m]."""
-        return _largest_deviation(self._of_place)
+        """The standard deviation of its place along any axis [m]."""
+        return math.sqrt(self.axis.place)
 
     @property
     def velocity_error(self) -> float:
-        """The standard deviation of its velocity where that is largest [m/s]."""
-        return _largest_deviation(self._of_velocity)
+        """The standard deviation of its velocity along any axis [m/s]."""
+        return math.sqrt(self.axis.velocity)
 
     @property
     def significance(self) -> float:
         """Squared Mahalanobis distance of the velocity from none: chi squared of d if it stands.
 
-        >>> still = MotionEstimate(0.0, np.array((0.0, 0.0, 0.3, 0.0)), 0.01 * np.eye(4))
-        >>> round(still.significance, 6)
+        >>> moving, sure = np.array((0.0, 0.0, 0.3, 0.0)), AxisCovariance(0.01, 0.0, 0.01)
+        >>> round(MotionEstimate(0.0, moving, sure).significance, 6)
         9.0
         """
-        return float(self.velocity @ np.linalg.solve(self._of_velocity, self.velocity))
-
-    @property
-    def _of_place(self) -> Floats:
-        """The covariance of the place, (d, d)."""
-        return self.covariance[: self.dimension, : self.dimension]
-
-    @property
-    def _of_velocity(self) -> Floats:
-        """The covariance of the velocity, (d, d)."""
-        return self.covariance[self.dimension :, self.dimension :]
+        return float(self.velocity @ self.velocity) / self.axis.velocity
 
     def foreseen(self, time: float, wander: float) -> MotionEstimate:
         """What it will be at a later instant.
@@ -118,12 +129,16 @@ class MotionEstimate:
             wander: By how much each coordinate of its velocity changes in a second, in standard
                 deviations [m/s per square root of s].
         """
-        late, d = time - self.time, self.dimension
-        ahead = np.eye(2 * d, k=d)
-        step = np.eye(2 * d) + late * ahead
-        noise = np.diag([late**3 / 3.0] * d + [late] * d) + late**2 / 2.0 * (ahead + ahead.T)
-        covariance = step @ self.covariance @ step.T + wander**2 * noise
-        return MotionEstimate(time, step @ self.mean, covariance)
+        late, noise, d = time - self.time, wander**2, self.dimension
+        place, both, velocity = self.axis
+        later = AxisCovariance(
+            place + late * (2.0 * both + late * velocity) + noise * late**3 / 3.0,
+            both + late * velocity + noise * late**2 / 2.0,
+            velocity + noise * late,
+        )
+        mean = self.mean.copy()
+        mean[:d] += late * mean[d:]
+        return MotionEstimate(time, mean, later)
 
     def with_place(self, place: tuple[float, ...] | Floats, error: float) -> MotionEstimate:
         """What is believed after its place was measured.
@@ -132,8 +147,17 @@ class MotionEstimate:
             place: [m], shape (d,).
             error: Standard deviation of each coordinate of that, above 0 [m].
         """
-        d = self.dimension
-        return self._corrected(np.asarray(place), np.eye(d, 2 * d), error**2 * np.eye(d))
+        off = np.asarray(place) - self.place
+        before, both, velocity = self.axis
+        spread = before + error**2
+        gain, gain_of_velocity = before / spread, both / spread
+        axis = AxisCovariance(
+            error**2 * gain,
+            error**2 * gain_of_velocity,
+            (velocity * error**2 + self.axis.determinant) / spread,
+        )
+        mean = self.mean + np.concatenate((gain * off, gain_of_velocity * off))
+        return MotionEstimate(self.time, mean, axis)
 
     def with_place_and_velocity(
         self, measured: Floats, place_error: float, velocity_error: float
@@ -145,8 +169,20 @@ class MotionEstimate:
             place_error: Standard deviation of each coordinate of the place, above 0 [m].
             velocity_error: Standard deviation of each coordinate of the velocity, above 0 [m/s].
         """
-        variances = _variances(self.dimension, place_error, velocity_error)
-        return self._corrected(measured, np.eye(measured.size), np.diag(variances))
+        place, both, velocity = self.axis
+        of_place, of_velocity = place_error**2, velocity_error**2
+        known = self.axis.determinant
+        spread = known + place * of_velocity + velocity * of_place + of_place * of_velocity
+        axis = AxisCovariance(
+            of_place * (known + place * of_velocity) / spread,
+            of_place * of_velocity * both / spread,
+            of_velocity * (known + velocity * of_place) / spread,
+        )
+        d, off = self.dimension, measured - self.mean
+        mean = self.mean.copy()
+        mean[:d] += (axis.place / of_place) * off[:d] + (axis.both / of_velocity) * off[d:]
+        mean[d:] += (axis.both / of_place) * off[:d] + (axis.velocity / of_velocity) * off[d:]
+        return MotionEstimate(self.time, mean, axis)
 
     def distance_to(self, place: Floats, error: float) -> tuple[float, float]:
         """How far a measured place is from where it should be.
@@ -159,29 +195,5 @@ class MotionEstimate:
             (squared Mahalanobis distance, logarithm of the determinant of what that is measured
             by): the first says whether it may be the same thing, their sum how likely that is.
         """
-        spread = self._of_place + error**2 * np.eye(self.dimension)
-        away = place - self.place
-        return float(away @ np.linalg.solve(spread, away)), math.log(np.linalg.det(spread))
-
-    def _corrected(self, measured: Floats, shown: Floats, noise: Floats) -> MotionEstimate:
-        """After a measurement; by Joseph's form, which leaves no negative variance."""
-        spread = shown @ self.covariance @ shown.T + noise
-        gain = np.linalg.solve(spread, shown @ self.covariance).T
-        left = np.eye(self.mean.size) - gain @ shown
-        mean = self.mean + gain @ (measured - shown @ self.mean)
-        covariance = left @ self.covariance @ left.T + gain @ noise @ gain.T
-        return MotionEstimate(self.time, mean, 0.5 * (covariance + covariance.T))
-
-
-def _variances(dimension: int, place_error: float, velocity_error: float) -> Floats:
-    """Of place and velocity, (2d,)."""
-    variances: Floats = np.repeat((place_error, velocity_error), dimension) ** 2
-    return variances
-
-
-def _largest_deviation(covariance: Floats) -> float:
-    """The square root of the greatest eigenvalue of a covariance (d, d)."""
-    if covariance.shape[0] > 2:
-        return math.sqrt(max(float(np.linalg.eigvalsh(covariance)[-1]), 0.0))
-    a, b, c = covariance[0, 0], covariance[0, 1], covariance[1, 1]
-    return math.sqrt(0.5 * (a + c) + math.hypot(0.5 * (a - c), b))
+        spread, away = self.axis.place + error**2, place - self.place
+        return float(away @ away) / spread, self.dimension * math.log(spread)

@@ -15,7 +15,7 @@ from viaspline.robot.perception.moving.foretell import foretold
 from viaspline.robot.perception.moving.motion_sensor import MotionSensor
 from viaspline.robot.perception.moving.track_sightings import TrackedSightings
 from viaspline.tracks.foresight import Foresight
-from viaspline.tracks.motion_estimate import MotionEstimate
+from viaspline.tracks.motion_estimate import AxisCovariance, MotionEstimate
 from viaspline.world.moving_obstacles import MovingObstacles
 
 SHAPES = (
@@ -60,7 +60,9 @@ def test_what_speeds_up_or_turns_within_its_limits_stays_in_its_tube(
     x: float, y: float, speed: float, way: float, push: float
 ) -> None:
     estimate = MotionEstimate(
-        4.0, np.array((x, y, speed * math.cos(way), speed * math.sin(way))), 1e-4 * np.eye(4)
+        4.0,
+        np.array((x, y, speed * math.cos(way), speed * math.sin(way))),
+        AxisCovariance(1e-4, 0.0, 1e-4),
     )
     foresight = Foresight(top_speed=2.0, accel=1.0, horizon=1.5)
     error = foresight.error(estimate)
@@ -75,7 +77,7 @@ def test_what_speeds_up_or_turns_within_its_limits_stays_in_its_tube(
 
 
 def test_no_growth_is_more_than_the_top_speed_makes_it() -> None:
-    wild = MotionEstimate(0.0, np.array((0.0, 0.0, 1.0, 0.0)), 100.0 * np.eye(4))
+    wild = MotionEstimate(0.0, np.array((0.0, 0.0, 1.0, 0.0)), AxisCovariance(100.0, 0.0, 100.0))
     assert Foresight(top_speed=2.0).error(wild).growth_mps == pytest.approx(3.0)
 
 
