@@ -173,3 +173,35 @@ def test_some_of_them_and_others_are_what_they_would_be_if_they_were_made_at_onc
         assert found.distance(places, times).tolist() == expected.distance(places, times).tolist()
     assert joined.first(3) is joined
     assert MovingObstacles().and_those(whole) == whole
+
+
+def test_those_that_go_on_and_those_that_end_are_packed_side_by_side_as_each_alone() -> None:
+    frames = [[0.0, 1.0, 2.0, 30.0], [2.0, 3.0, 2.0], [5.0, 3.0, 6.0, 90.0]]
+    ways: list[dict[str, object]] = [
+        {"keyframes": frames, "after": after, **more}
+        for after, more in (
+            ("loop", {}), ("bounce", {}), ("stay", {}), ("vanish", {}),
+            ("stay", {"before": "absent"}), ("vanish", {"before": "stay"}),
+        )
+    ]  # fmt: skip
+    ways += [
+        {"from": [1.0, 2.0], "velocity_mps": [0.5, -1.0]},
+        {"keyframes": [[3, 1, 1]], "after": "stay"},
+    ]
+    carts = [
+        Obstacle(polygon=[(0, 0), (1, 0), (0, 0.5)], motion=motion)  # type: ignore[arg-type]
+        for motion in ways
+    ]
+    together = MovingObstacles(carts)
+    for time in (-4.0, -1e-3, 0.0, 1.0, 2.0, 4.9, 5.0, 7.3, 11.0):
+        places = together.frames(time)
+        for i in range(len(carts)):
+            alone = MovingObstacles([carts[i]]).frames(time)[0]
+            np.testing.assert_array_equal(places[i], alone)
+    looped, bounced = MovingObstacles(carts[:1]), MovingObstacles(carts[1:2])
+    np.testing.assert_allclose(looped.frames(6.0), looped.frames(1.0), atol=1e-12)
+    np.testing.assert_allclose(bounced.frames(6.0), bounced.frames(4.0), atol=1e-12)
+    assert np.isnan(together.frames(6.0)[3]).all()
+    assert np.isnan(together.frames(-1.0)[4]).all()
+    assert together.frames(-1.0)[5, :2].tolist() == [1.0, 2.0]
+    assert together.frames(2.0)[6, :2].tolist() == [2.0, 0.0]

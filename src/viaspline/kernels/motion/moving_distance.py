@@ -102,6 +102,10 @@ def piece_distance(
         c = math.cos(heading)
         s = math.sin(heading)
         dx, dy = c * dx + s * dy, c * dy - s * dx
+    slot = motion.shapes.slot[i]
+    if slot >= 0 and motion.shapes.heads[slot, 3] == 1.0:  # a disc
+        head = motion.shapes.heads[slot]
+        return min(limit, math.hypot(dx - head[0], dy - head[1]) - head[2] - error)
     return min(limit, obstacle_signed(motion.shapes, i, dx, dy, limit + error) - error)
 
 
@@ -124,8 +128,10 @@ def moving_distances(motion: PackedMotion, instants: Floats, points: Floats) -> 
     distance = np.full(count, np.inf)
     index = np.full(count, -1, np.int64)
     for k in range(count):
+        x, y, instant = points[k, 0], points[k, 1], instants[k]
         for i in range(motion.first_piece.size - 1):
-            found = moving_distance(motion, i, instants[k], points[k, 0], points[k, 1], distance[k])
+            row, shift, _ = piece_at(motion, i, instant)
+            found = piece_distance(motion, i, row, shift, instant, x, y, distance[k])
             if found < distance[k]:
                 distance[k], index[k] = found, i
     return distance, index

@@ -91,6 +91,8 @@ def _turned(obstacle: Obstacle, heading: float, motion: Motion, name: str) -> Ob
     """A shape turned about its frame's origin [rad], in a frame that doesn't turn."""
     ring = obstacle.ring
     assert ring is not None
+    if obstacle.circle is not None and obstacle.circle.center == (0.0, 0.0):
+        return Obstacle(circle=obstacle.circle, motion=motion, name=name)
     c, s = math.cos(heading), math.sin(heading)
     corners = [(c * x - s * y, s * x + c * y) for x, y in ring.loops[0]]
     if len(corners) == 1:
