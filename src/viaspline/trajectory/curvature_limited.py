@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.arc_caps import bend_caps
+from viaspline.kernels.timing.stretches import cut_in_stretches
 from viaspline.kernels.timing.two_pass import two_pass_profile
 from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.limits import Limits
@@ -67,11 +68,11 @@ def stretches_of(
     """Ends of the stretches from start to end, the largest v² on each, and where to rest."""
     start, square = stage.start, stage.top**2
     edges = [place for part in stage.slow for place in (part.start, part.end)]
-    places = np.unique([start, stage.end, *stage.stops, *edges])
+    places = np.array(sorted({start, stage.end, *stage.stops, *edges}))
     lateral, turning = limits.max_lateral_accel, limits.max_yaw_rate
     if lateral is None and turning is None:
-        line, caps = places, np.full(len(places) - 1, square)
-        rests = np.zeros(len(places), dtype=np.bool_)
+        arcs, arc_caps = places[[0, -1]], np.array((square,))
+        corners = np.zeros(2, np.bool_)
     else:
         joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
         first = max(int(np.searchsorted(joints, start, side="right")) - 1, 0)
@@ -81,14 +82,8 @@ def stretches_of(
             max(limits.max_accel, limits.brake), square,
             CAP_RATIO if turning is None else np.sqrt(CAP_RATIO),
         )  # fmt: skip
-        line = np.union1d(arcs[arcs > start], places)
-        middles = 0.5 * (line[1:] + line[:-1])
-        within = np.clip(np.searchsorted(arcs, middles) - 1, 0, len(arc_caps) - 1)
-        caps = arc_caps[within]
-        rests = np.isin(line, arcs[corners & (arcs > start)])
-    middles = 0.5 * (line[1:] + line[:-1])
-    for part in stage.slow:
-        slow = (middles > part.start) & (middles < part.end)
-        caps[slow] = np.minimum(caps[slow], part.speed**2)
-    rests |= np.isin(line, stage.stops)
-    return line, caps, rests
+    slow = [(part.start, part.end, part.speed**2) for part in stage.slow]
+    return cut_in_stretches(
+        arcs, arc_caps, corners, places, np.array(sorted(stage.stops), np.float64),
+        np.array(slow, np.float64).reshape(-1, 3),
+    )  # fmt: skip
