@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import viaspline as vs
 from viaspline.planning.departure import rolling, standing
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.swerve import may_swerve, swerve
+from viaspline.planning.swerve import Swerving, may_swerve
 
 
 def planned(*known: dict[str, Any], **robot: Any) -> tuple[vs.Plan, Requirements]:
@@ -37,7 +37,7 @@ def test_it_leads_through_the_place_and_every_via_point(
     u = float(plan.path.parameter(at))
     along = np.asarray(plan.path.tangent(u))
     place = plan.path.evaluate(u) + ahead * along + aside * np.array([-along[1], along[0]])
-    found = swerve(plan.path, at, place, plan.world, requirements, rolling)
+    found = Swerving.off(plan.path, at, plan.world, requirements, rolling).through(place)
     new = found.path
     driven = np.linspace(0.0, at, 50)
     np.testing.assert_allclose(new.at_distance(driven), plan.path.at_distance(driven), atol=1e-7)
@@ -52,7 +52,9 @@ def test_it_leads_through_the_place_and_every_via_point(
 
 def test_from_rest_it_leaves_for_the_place_at_once() -> None:
     plan, requirements = planned()
-    found = swerve(plan.path, 4.0, np.array([4.0, 6.0]), plan.world, requirements, standing)
+    found = Swerving.off(plan.path, 4.0, plan.world, requirements, standing).through(
+        np.array([4.0, 6.0])
+    )
     assert found.changed_from == pytest.approx(4.0)
     heading = float(found.path.heading(float(found.path.parameter(4.0)) + 1e-9))
     assert np.sin(heading) > 0.9
@@ -60,8 +62,9 @@ def test_from_rest_it_leaves_for_the_place_at_once() -> None:
 
 def test_what_stands_in_its_way_makes_it_none() -> None:
     plan, requirements = planned({"name": "post", "circle": {"center": [8, -2], "radius": 0.5}})
+    swerving = Swerving.off(plan.path, 4.0, plan.world, requirements, rolling)
     with pytest.raises(vs.PlanningError, match="no room"):
-        swerve(plan.path, 4.0, np.array([8.0, -2.5]), plan.world, requirements, rolling)
+        swerving.through(np.array([8.0, -2.5]))
 
 
 def test_none_is_laid_where_sides_or_a_turning_circle_have_a_say() -> None:

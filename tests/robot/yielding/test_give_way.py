@@ -9,9 +9,12 @@ import pytest
 
 import viaspline as vs
 from viaspline.planning.problem.work_budget import LAW_AMONG_S
+from viaspline.planning.swerve import Swerving
 from viaspline.robot.navigation import law_past
 from viaspline.robot.navigation.law_past import LAW_WORK_S
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.yielding import give_way
+from viaspline.robot.yielding.swerves import Swerves
 from viaspline.robot.yielding.ways_past import WAYS_WORK_S, try_ways
 
 
@@ -126,6 +129,30 @@ def test_a_wall_of_them_touches_no_robot_under_way_that_is_to_be_at_rest_in_time
     run = vs.simulate(crossing(*boxed, moving=safe), step=0.2)
     assert run.encounters is not None
     assert all(contact.robot_speed == 0.0 for contact in run.encounters.contacts)
+
+
+def test_no_path_to_swerve_by_is_laid_before_it_is_asked_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    laid: list[int] = []
+    through = Swerving.through
+
+    def counted(self: Swerving, place: Any) -> Any:
+        laid.append(1)
+        return through(self, place)
+
+    monkeypatch.setattr(Swerving, "through", counted)
+    asked: list[Swerves] = []
+
+    def seen(context: Any) -> Swerves:
+        asked.append(Swerves(context))
+        return asked[-1]
+
+    monkeypatch.setattr(give_way, "Swerves", seen)
+    vs.simulate(crossing(cart("oncoming", (24.0, 0.0), (-1.0, 0.0))), step=0.1)
+    places = sum(len(paths.places) for paths in asked)
+    assert 0 < len(laid) < places
+    assert len(list(asked[0])) <= len(asked[0].places)
 
 
 def test_ways_are_tried_one_after_the_other_and_the_rest_in_the_steps_to_come() -> None:

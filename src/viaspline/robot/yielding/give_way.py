@@ -14,7 +14,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from viaspline.errors import GeometryError
-from viaspline.planning.alternatives.solution import Solution
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
@@ -26,7 +25,7 @@ from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.transitions import take_over
 from viaspline.robot.yielding.meeting_ahead import meeting_ahead
 from viaspline.robot.yielding.out_of_the_way import out_of_the_way
-from viaspline.robot.yielding.swerves import swerves
+from viaspline.robot.yielding.swerves import Swerves
 from viaspline.robot.yielding.ways_past import Way, try_ways, ways_past
 from viaspline.tracks.patience import APART_M, FREE_S, GAIN_S, PATIENCE_S, RETRY_S
 from viaspline.trajectory.trajectory import Trajectory
@@ -60,7 +59,7 @@ def give_way(
             break
     if tried[0].late <= PATIENCE_S:
         return Decision(tried[0].given(progress))
-    paths = swerves(context)
+    paths = Swerves(context)
     decision, next_way = _by_another_way(context, tried, paths)
     if decision is None and kept < len(APART_M):
         decision = Decision(replace(schedule, timed_at=progress.time))
@@ -104,7 +103,7 @@ class _Waiting:
 
 
 def _by_another_way(
-    context: ReplanContext, waiting: Sequence[_Waiting], paths: Sequence[Solution]
+    context: ReplanContext, waiting: Sequence[_Waiting], paths: Swerves
 ) -> tuple[Decision | None, int]:
     """What keeps clear of all that moves: waiting for it, or another way; None if neither does.
 

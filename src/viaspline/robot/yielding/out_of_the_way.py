@@ -9,7 +9,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from viaspline.planning.alternatives.solution import Solution
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.reschedule import braking_at_once
 from viaspline.robot.replanning.path_candidate import PathCandidate
@@ -17,7 +16,7 @@ from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.transitions import take_over
 from viaspline.robot.run import Event
 from viaspline.robot.yielding.meeting_ahead import meeting_ahead
-from viaspline.robot.yielding.swerves import driven
+from viaspline.robot.yielding.swerves import Swerves, driven
 from viaspline.spacetime.meetings import Meeting
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -26,7 +25,7 @@ LATER_S = 0.1
 """A new path has to be met so much later than any law on this one [s]."""
 
 
-def out_of_the_way(context: ReplanContext, free: Trajectory, paths: Sequence[Solution]) -> Decision:
+def out_of_the_way(context: ReplanContext, free: Trajectory, paths: Swerves) -> Decision:
     """What the robot meets nothing on for the longest time; braking if it is no worse.
 
     Args:
@@ -54,7 +53,7 @@ def out_of_the_way(context: ReplanContext, free: Trajectory, paths: Sequence[Sol
     return Decision(held, (Event("braked", now, context.here, words),))
 
 
-def _aside(context: ReplanContext, paths: Sequence[Solution], later: float) -> PathCandidate | None:
+def _aside(context: ReplanContext, paths: Swerves, later: float) -> PathCandidate | None:
     """The path beside this one that meets something last, if that is later than a time [s].
 
     One that is to be at rest in time brakes on its path, where that is proven, until it stands.

@@ -5,13 +5,17 @@ Tested through ``robot/yielding/test_give_way``.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
 
 from viaspline.errors import PlanningError
+from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.departure import rolling, standing
-from viaspline.planning.swerve import may_swerve, swerve
+from viaspline.planning.swerve import Swerving, may_swerve
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
@@ -24,27 +28,65 @@ SWERVES = 5
 SWERVE_WORK_S = 0.03
 """What may be spent on all of them [s of the reference machine]."""
 
+NOWHERE = np.empty((0, 2))
 
-def swerves(context: ReplanContext) -> list[Solution]:
-    """The paths by the best places that are clear of what stands.
 
-    None where the mission allows no such path.
+@dataclass(frozen=True, eq=False)
+class Swerves:
+    """The paths by which a robot may swerve, each laid when it is first asked for.
 
-    Args:
+    Attributes:
         context: The robot under way, with what moves, by which the places are chosen.
     """
-    path, world, stands = context.schedule.path, context.knowledge.world, context.speed == 0.0
-    if not context.vias_ahead or not may_swerve(path, world, context.requirements):
-        return []
-    requirements = context.searching(SWERVE_WORK_S).requirements
-    leave, at = (standing, context.stop) if stands else (rolling, context.leaves[0])
-    found = []
-    for place in swerve_places(context, SWERVES):
+
+    context: ReplanContext
+    _laid: dict[int, Solution | None] = field(default_factory=dict, init=False)
+
+    @cached_property
+    def places(self) -> Floats:
+        """Through which they lead, the most promising first [m], (k, 2).
+
+        None where the mission allows no such path.
+        """
+        return swerve_places(self.context, SWERVES) if self._swerving is not None else NOWHERE
+
+    @cached_property
+    def _swerving(self) -> Swerving | None:
+        """How the robot leaves its path; None: it can't, or mustn't."""
+        context = self.context
+        path, world = context.schedule.path, context.knowledge.world
+        if not context.vias_ahead or not may_swerve(path, world, context.requirements):
+            return None
+        stands = context.speed == 0.0
+        leave, at = (standing, context.stop) if stands else (rolling, context.leaves[0])
+        requirements = context.searching(SWERVE_WORK_S).requirements
         try:
-            found.append(swerve(path, at, place, world, requirements, leave))
+            return Swerving.off(path, at, world, requirements, leave)
         except PlanningError:
-            continue
-    return found
+            return None
+
+    def path(self, number: int) -> Solution | None:
+        """The path through one of the places; None if it isn't clear of what stands."""
+        if number not in self._laid:
+            self._laid[number] = self._through(number)
+        return self._laid[number]
+
+    def _through(self, number: int) -> Solution | None:
+        if self._swerving is None:
+            return None
+        try:
+            return self._swerving.through(self.places[number])
+        except PlanningError:
+            return None
+
+    def __iter__(self) -> Iterator[Solution]:
+        """Those that are clear of what stands, the most promising first."""
+        paths = (self.path(number) for number in range(len(self.places)))
+        return (path for path in paths if path is not None)
+
+    def __bool__(self) -> bool:
+        """Whether there is any."""
+        return next(iter(self), None) is not None
 
 
 def driven(

@@ -17,12 +17,11 @@ from typing import TypeAlias
 from viaspline.errors import PlanningError
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning import replan
-from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.work_budget import LAW_AMONG_S, WorkBudget
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.yielding.meeting_ahead import meeting_ahead
-from viaspline.robot.yielding.swerves import driven
+from viaspline.robot.yielding.swerves import Swerves, driven
 from viaspline.spacetime.standing_ghost import standing_ghost
 from viaspline.spacetime.timed_problem import without_lanes
 from viaspline.trajectory.trajectory import Trajectory
@@ -32,6 +31,9 @@ WAYS_WORK_S = 0.01
 
 SIDE_WORK_S = 0.03
 """What may be spent on laying one of them [s of the reference machine]."""
+
+LAID_S = 0.001
+"""What a path costs that is laid and isn't clear of what stands [s of the reference machine]."""
 
 SIDES: tuple[Side, Side] = ("left", "right")
 
@@ -74,9 +76,7 @@ def try_ways(
     return TriedWays(best, at if at < len(ways) else 0)
 
 
-def ways_past(
-    context: ReplanContext, free: Trajectory, paths: Sequence[Solution]
-) -> tuple[Way, ...]:
+def ways_past(context: ReplanContext, free: Trajectory, paths: Swerves) -> tuple[Way, ...]:
     """The ways past what a robot would meet first.
 
     Args:
@@ -89,7 +89,7 @@ def ways_past(
     if meeting is None:
         return ()
     if paths:
-        return tuple(partial(_swerved, context, one) for one in paths)
+        return tuple(partial(_swerved, context, paths, k) for k in range(len(paths.places)))
     return tuple(
         partial(_led_round, context, meeting.obstacle, side, window)
         for window in meeting.windows
@@ -97,8 +97,14 @@ def ways_past(
     )
 
 
-def _swerved(context: ReplanContext, path: Solution, budget: WorkBudget) -> PathCandidate | None:
+def _swerved(
+    context: ReplanContext, paths: Swerves, number: int, budget: WorkBudget
+) -> PathCandidate | None:
     """A path by a place beside the robot's own, with its law."""
+    path = paths.path(number)
+    if path is None:
+        budget.spent += LAID_S
+        return None
     budget.spent += LAW_AMONG_S
     return next(iter(driven(context, (path,), context.knowledge)), None)
 
