@@ -337,6 +337,27 @@ def test_a_sharp_bend_makes_short_chords_only_where_it_is() -> None:
     assert (off <= road.tree.misses[leaf] + 1e-9).all()
 
 
+def test_a_corner_at_the_robot_s_own_place_but_for_rounding_costs_no_search_of_its_own() -> None:
+    corner = Path(
+        [np.linspace(0.0, 1.0, 4)[:, None] * (0.26, 0.0),
+         (0.26, 0.0) + np.linspace(0.0, 1.0, 4)[:, None] * (0.0, 20.0)], vias=[],
+    )  # fmt: skip
+    across = {"from": (-6.0, 10.0), "velocity_mps": (1.0, 0.0)}
+    moving = MovingObstacles([Obstacle(circle={"center": (0, 0), "radius": 1}, motion=across)])
+    limits = Limits(max_speed=2, max_accel=1, max_lateral_accel=1)
+    spent, ends = [], []
+    for before in (0.0, 1e-12):
+        budget = WorkBudget(1.0)
+        found = law_among(
+            corner, limits, moving=moving, required=0.5, start=0.26 - before, budget=budget
+        )
+        assert isinstance(found, Found)
+        spent.append(budget.spent)
+        ends.append(found.value.end_time)
+    assert ends[1] == pytest.approx(ends[0])
+    assert spent[1] <= 1.1 * spent[0]
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_a_search_that_pauses_comes_to_what_it_comes_to_at_once(
     seed: int, monkeypatch: pytest.MonkeyPatch

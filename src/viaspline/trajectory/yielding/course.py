@@ -22,6 +22,9 @@ from viaspline.trajectory.slow_zones import Slow, slow_between
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_knots import LawKnots
 
+SAME_PLACE_M = 1e-9
+"""A rest that is no farther ahead is where the robot stands already [m]."""
+
 
 @dataclass(frozen=True, eq=False)
 class Course:
@@ -67,7 +70,7 @@ class Course:
     def stretches(self) -> tuple[Floats, Floats, Floats]:
         """Ends of stretches (n + 1,) [m], the largest speed on each (n,) [m/s], and rests [m]."""
         line, caps, is_rest = stretches_of(self.path, self.limits, self.stage)
-        rests = line[is_rest & (line > self.stage.start)]
+        rests = line[is_rest & (line > self.stage.start + SAME_PLACE_M)]
         return line, np.sqrt(caps), np.unique(np.append(rests, self.stage.end))
 
     def dwell(self, distance: float) -> float:

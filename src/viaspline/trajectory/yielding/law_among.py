@@ -18,7 +18,7 @@ from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.course import Course
 from viaspline.trajectory.yielding.fastest_end import with_fastest_end
-from viaspline.trajectory.yielding.law_through_legs import LegsSearch
+from viaspline.trajectory.yielding.law_through_legs import HALVINGS, LegsSearch
 from viaspline.trajectory.yielding.no_law import Unserved
 from viaspline.trajectory.yielding.road import Road
 from viaspline.trajectory.yielding.traffic import Traffic
@@ -44,6 +44,7 @@ def law_among(
     hold: float = 0.0,
     speed_cap: float | None = None,
     budget: WorkBudget | None = None,
+    halvings: int = HALVINGS,
     explained: Callable[[Unserved], Refusal | GaveUp] = Unserved.outcome,
 ) -> Outcome[Trajectory]:
     """The fastest drive along a path on which nothing that moves comes too near.
@@ -69,6 +70,7 @@ def law_among(
         hold: For so long the end of the path stays free after arrival [s].
         speed_cap: As for ``retime``.
         budget: What may be spent.
+        halvings: How often the step of the lattice is halved where nothing was found.
         explained: What is said where none is found: by proof, which may cost more than the search.
 
     Returns:
@@ -117,7 +119,7 @@ def law_among(
     course = Course.of(path, limits, stations, zones, slow, speed_cap, static)
     spending = WorkBudget(BUDGET_S) if budget is None else budget
     legs = LegsSearch.of(course, road, traffic)
-    knots, _ = legs.law(spending)
+    knots, _ = legs.law(spending, halvings)
     if knots is not None:
         law = course.law(with_fastest_end(legs.search, knots.merged()))
         return Found(law, law.end_time)

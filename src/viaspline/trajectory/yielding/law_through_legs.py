@@ -56,7 +56,7 @@ class LegsSearch:
         top = min(course.stage.top, float(course.static.speeds.max()))
         search = LatticeSearch(
             road, traffic, Dynamics(limits.max_accel, limits.brake, top), line, caps,
-            _across(limits, road.bend, top),
+            _across(limits, road, top),
         )  # fmt: skip
         return cls(course, search, tuple(rests.tolist()), traffic)
 
@@ -71,11 +71,16 @@ class LegsSearch:
                 break
         return step
 
-    def law(self, budget: WorkBudget) -> tuple[LawKnots | None, bool]:
-        """The knots of a law, and whether nothing is left of any lattice that was tried."""
+    def law(self, budget: WorkBudget, halvings: int = HALVINGS) -> tuple[LawKnots | None, bool]:
+        """The knots of a law, and whether nothing is left of any lattice that was tried.
+
+        Args:
+            budget: What may be spent.
+            halvings: How often the step is halved where nothing was found.
+        """
         onset = self.course.onset()
         step, is_closed = self.first_step(), True
-        for _ in range(1 + HALVINGS):
+        for _ in range(1 + halvings):
             knots, closed = self._on_steps(onset, step, budget)
             if knots is not None:
                 return onset.followed_by(knots), closed
@@ -156,11 +161,17 @@ class LegsSearch:
         return chain, is_closed
 
 
-def _across(limits: Limits, bend: float, top: float) -> float:
-    """The largest acceleration across the path [m/s²], infinite at a corner without limits."""
-    found = bend * top * top if math.isfinite(bend) else np.inf
+def _across(limits: Limits, road: Road, top: float) -> float:
+    """The largest acceleration across the path [m/s²], infinite at a corner without limits.
+
+    It is the limit where there is one: how much the path bends takes longer to find than that is
+    worth.
+    """
+    found = np.inf
     if limits.max_lateral_accel is not None:
-        found = min(found, limits.max_lateral_accel)
+        found = limits.max_lateral_accel
     if limits.max_yaw_rate is not None:
         found = min(found, limits.max_yaw_rate * top)
-    return found
+    if found < np.inf or math.isinf(road.bend):
+        return found
+    return road.bend * top * top

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -18,6 +19,10 @@ CHORD_MISS_M = 0.0002
 MIN_CHORD_M, MAX_CHORDS = 0.02, 20_000
 """unless it is so short [m], or there are so many."""
 
+_TREES: WeakKeyDictionary[PiecewiseCubic, PathTree] = WeakKeyDictionary()
+"""The chords of every path that is still in use: a robot times the path that it is on again and
+again."""
+
 
 @dataclass(frozen=True, eq=False)
 class Road:
@@ -25,19 +30,24 @@ class Road:
 
     Attributes:
         path: The path itself.
-        bend: No place of it bends more [1/m]; infinite at a corner.
         tree: Its chords.
     """
 
     path: PiecewiseCubic
-    bend: float
     tree: PathTree
 
     @classmethod
     def of(cls, path: PiecewiseCubic) -> Road:
         """The chords of a path, the shorter the more it bends where they are."""
-        bend = float(curvature_bound(path)[0])
-        return cls(path, bend, _in_chords(path))
+        tree = _TREES.get(path)
+        if tree is None:
+            tree = _TREES[path] = _in_chords(path)
+        return cls(path, tree)
+
+    @cached_property
+    def bend(self) -> float:
+        """No place of the path bends more [1/m]; infinite at a corner."""
+        return float(curvature_bound(self.path)[0])
 
     @property
     def length(self) -> float:

@@ -111,9 +111,10 @@ class Visited(NamedTuple):
 def unvisited(lattice: TimeLattice, tube: Tube) -> Visited:
     """The walk over a lattice before its first step."""
     steps = tube.words.size - 1
+    bands = np.empty((steps + 1, lattice.levels + 1, 2), np.int64)
+    bands[0] = 0  # those of a later step are made by the step before
     return Visited(
-        np.empty((steps + 1, lattice.levels + 1, tube.width), np.uint64),
-        np.zeros((steps + 1, lattice.levels + 1, 2), np.int64),
+        np.empty((steps + 1, lattice.levels + 1, tube.width), np.uint64), bands,
         np.empty(steps + 1, np.int64), 0, 0, 0, -1, -np.inf, -np.inf, False,
     )  # fmt: skip
 
