@@ -157,7 +157,7 @@ def _with_ends(
     ]
     kept = np.ones(len(pieces), np.bool_)
     kept[ends[goes_on]] = False  # there the round begins again
-    at = (np.cumsum(kept) - kept)[begins[is_ended]]
+    at: Ints = (np.cumsum(kept) - kept)[begins[is_ended]]
     counts = ends - begins + 1 + is_ended - goes_on
     return np.insert(pieces[kept], at, before, axis=0), np.append(0, np.cumsum(counts)), rounds
 
