@@ -18,6 +18,7 @@ from viaspline.kernels.arrays import Ints
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.passages import passages_of
+from viaspline.kernels.fleet.sooner_in_order import sooner_in_order
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 
 RIDES_EACH = 200
@@ -71,15 +72,22 @@ def time_paths(
     passages = passages_of(courses.packed, crossings.packed)
     asked = forced_orders(courses.packed, passages, rides.packed.vanishes)
     ranks = [(-p, -t) for p, t in zip(priorities, rides.alone.tolist(), strict=True)]
-    found = _timed(courses, crossings, passages, rides, asked, ranks, left_out, given)
     is_small = given.packed.is_timed.size - len(settled) < MANY
-    if not found.blocked and is_small:
-        return found
+    if is_small:
+        found = _timed(courses, crossings, passages, rides, asked, ranks, left_out, given)
+        if not found.blocked:
+            return found
     search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
     if is_small:
         best = _given_laws(search, found.laws.packed)
     else:
-        best = _best_of_both(search, found, _laws_to_fill(given, left_out))
+        best = _by_meeting(search, _laws_to_fill(given, left_out))
+        if not best.blocked:
+            order = _order(asked, ranks, settled)
+            return _sooner_of_both(search, best, _laws_to_fill(given, left_out), order)
+        found = _timed(courses, crossings, passages, rides, asked, ranks, left_out, given)
+        other = _given_laws(search, found.laws.packed)
+        best = min(other, best, key=partial(_lost, search))
     idle = 0
     while best.blocked and idle < MAX_IDLE:
         learned = [(robot, other) for robot, other in found.blocked.items() if other not in settled]
@@ -96,20 +104,35 @@ def time_paths(
     return best
 
 
-def _best_of_both(search: LawSearch, by_priority: Timing, laws: PackedLaws) -> Timing:
-    """The better one of a timing by priority and one by who meets whom first.
+def _by_meeting(search: LawSearch, laws: PackedLaws) -> Timing:
+    """A timing by who meets whom first.
 
     Args:
         search: What the robots drive among.
-        by_priority: As it is, without laws of those that are blocked in it.
         laws: Those that are given; written to.
     """
     search.first_come(laws)
-    by_meeting = _given_laws(search, laws)
-    if by_priority.blocked and not by_meeting.blocked:
-        return by_meeting  # to look for laws of the blocked ones would take longer than all else
-    other = _given_laws(search, by_priority.laws.packed)
-    return min(other, by_meeting, key=partial(_lost, search))
+    return _given_laws(search, laws)
+
+
+def _sooner_of_both(search: LawSearch, best: Timing, laws: PackedLaws, order: Ints) -> Timing:
+    """A timing of all robots, or that by priority, if this serves all as well and is sooner.
+
+    Args:
+        search: What the robots drive among.
+        best: A timing.
+        laws: Those that are given; written to.
+        order: The others, in the order of their priorities, (m,).
+    """
+    ends = search.courses.packed.first[1:] - 1
+    late = best.laws.packed.arrive[ends] - search.rides.laws.packed.arrive[ends]
+    room = float(search.weight[order] @ late[order])
+    if sooner_in_order(
+        search.courses.packed, search.crossings.packed, search.passages, search.rides.packed,
+        laws, order, search.weight, room,
+    ):  # fmt: skip
+        return Timing(FleetLaws(laws), {})
+    return best
 
 
 def _lost(search: LawSearch, timing: Timing) -> tuple[int, float]:
@@ -166,14 +189,17 @@ def _timed(
 ) -> Timing:  # fmt: skip
     """One round: those that wait for each other in a circle come last, the foremost one first."""
     laws = _laws_to_fill(given, left_out)
-    settled = np.flatnonzero(laws.is_timed)
-    free = asked[~np.isin(asked, settled).any(axis=1)]
-    plan = timing_order(free, ranks)
-    circular = sorted(plan.circular.tolist(), key=lambda robot: ranks[robot])
-    order = np.array([*plan.order.tolist(), *circular], np.int64)
-    order = order[~np.isin(order, settled)]
+    order = _order(asked, ranks, np.flatnonzero(laws.is_timed))
     boxes = timed_in_order(courses.packed, crossings.packed, passages, rides.packed, laws, order)
     return Timing(FleetLaws(laws), _in_the_way(crossings, order, boxes))
+
+
+def _order(asked: Ints, ranks: Sequence[tuple[float, ...]], settled: Sequence[int] | Ints) -> Ints:
+    """All but the settled robots, those that wait for each other in a circle last."""
+    plan = timing_order(asked[~np.isin(asked, settled).any(axis=1)], ranks)
+    circular = sorted(plan.circular.tolist(), key=lambda robot: ranks[robot])
+    order = np.array([*plan.order.tolist(), *circular], np.int64)
+    return order[~np.isin(order, settled)]
 
 
 def copied_laws(laws: PackedLaws) -> PackedLaws:

@@ -15,16 +15,15 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.fleet.packed_courses import PackedCourses
-from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inlined, inner
 
 ROUNDING_S = 1e-6
 """By so much more passages are taken to be blocked than nodes have it."""
 
 
-@inner
+@inlined
 def node_before(distance: Floats, first: int, last: int, place: float) -> int:
     """The last node of a course at a place or before it, but not its last one."""
     low, high = first, last - 1
@@ -37,7 +36,7 @@ def node_before(distance: Floats, first: int, last: int, place: float) -> int:
     return low
 
 
-@inner
+@inlined
 def _since_node(courses: PackedCourses, laws: PackedLaws, k: int, place: float) -> float:
     """How long a robot takes from a node to a place in the cell that begins there [s]."""
     gone = place - courses.distance[k]
@@ -47,28 +46,36 @@ def _since_node(courses: PackedCourses, laws: PackedLaws, k: int, place: float) 
     return 2.0 * gone / (here + then) if here + then > 0.0 else 0.0
 
 
-@inner
-def comes_between(
-    courses: PackedCourses, laws: PackedLaws, robot: int, low: int, after: int, place: float
+@inlined
+def node_near(distance: Floats, first: int, last: int, k: int, place: float) -> int:
+    """As ``node_before``, sought from a node nearby on."""
+    while k + 1 < last and distance[k + 1] <= place:
+        k += 1
+    while k > first and distance[k] > place:
+        k -= 1
+    return k
+
+
+@inlined
+def comes_in_cell(
+    courses: PackedCourses, laws: PackedLaws, robot: int, k: int, place: float
 ) -> float:
-    """As ``comes_to``, where a place is known to lie between the nodes ``low`` and ``after``."""
+    """As ``comes_to``, where the last node before a place is known."""
     if place <= courses.distance[courses.first[robot]]:
         return -np.inf
-    k = node_before(courses.distance, low, after, place)
     if place <= courses.distance[k]:
         return laws.arrive[k]
     return laws.leave[k] + _since_node(courses, laws, k, place)
 
 
-@inner
-def goes_between(
-    courses: PackedCourses, laws: PackedLaws, robot: int, low: int, after: int, place: float
+@inlined
+def goes_in_cell(
+    courses: PackedCourses, laws: PackedLaws, robot: int, k: int, place: float
 ) -> float:
-    """As ``goes_from``, where a place is known to lie between the nodes ``low`` and ``after``."""
+    """As ``goes_from``, where the last node before a place is known."""
     last = courses.first[robot + 1] - 1
     if place >= courses.distance[last]:
         return laws.leave[last]
-    k = node_before(courses.distance, low, after, place)
     if place <= courses.distance[k]:
         return laws.leave[k]
     if laws.speed[k] == 0.0 and laws.speed[k + 1] == 0.0:
@@ -80,14 +87,16 @@ def goes_between(
 def comes_to(courses: PackedCourses, laws: PackedLaws, robot: int, place: float) -> float:
     """When a robot comes to a place [m] of its course [s]; at its start it has always been."""
     first, last = courses.first[robot], courses.first[robot + 1] - 1
-    return comes_between(courses, laws, robot, first, last, place)
+    k = node_before(courses.distance, first, last, place)
+    return comes_in_cell(courses, laws, robot, k, place)
 
 
 @inner
 def goes_from(courses: PackedCourses, laws: PackedLaws, robot: int, place: float) -> float:
     """When a robot goes on from a place [m] of its course [s]; infinite where it stays."""
     first, last = courses.first[robot], courses.first[robot + 1] - 1
-    return goes_between(courses, laws, robot, first, last, place)
+    k = node_before(courses.distance, first, last, place)
+    return goes_in_cell(courses, laws, robot, k, place)
 
 
 class Blocks(NamedTuple):
@@ -137,9 +146,8 @@ def blocks_of(
 
 @inner
 def know_passage(
-    courses: PackedCourses, crossings: PackedCrossings, passages: PackedPassages,
-    laws: PackedLaws, blocks: Blocks, i: int,
-) -> int:  # fmt: skip
+    courses: PackedCourses, passages: PackedPassages, laws: PackedLaws, blocks: Blocks, i: int
+) -> int:
     """Reckon the times of the boxes of passage i of a robot, once. Where these begin."""
     p = blocks.begin + i
     at = passages.box_first[p] - passages.box_first[blocks.begin]
@@ -147,10 +155,15 @@ def know_passage(
         blocks.is_known[i] = True
         other = passages.other[p]
         is_timed = laws.is_timed[other]
-        for k in range(passages.box_first[p + 1] - passages.box_first[p]):
-            b = passages.box[passages.box_first[p] + k]
+        first, last = courses.first[other], courses.first[other + 1] - 1
+        low = high = passages.low[p]
+        begin = passages.box_first[p]
+        for k in range(passages.box_first[p + 1] - begin):
             blocks.times[at + k, 0], blocks.times[at + k, 1] = np.inf, -np.inf
             if is_timed:
-                blocks.times[at + k, 0] = comes_to(courses, laws, other, crossings.low[b])
-                blocks.times[at + k, 1] = goes_from(courses, laws, other, crossings.high[b])
+                since, until = passages.interval[begin + k, 0], passages.interval[begin + k, 1]
+                low = node_near(courses.distance, first, last, low, since)
+                high = node_near(courses.distance, first, last, high, until)
+                blocks.times[at + k, 0] = comes_in_cell(courses, laws, other, low, since)
+                blocks.times[at + k, 1] = goes_in_cell(courses, laws, other, high, until)
     return at

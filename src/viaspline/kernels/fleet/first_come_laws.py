@@ -13,20 +13,23 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.fleet.laws_in_turn import (
-    NOBODY,
     gained,
     next_meeting,
     sooner_leader,
     timed_in_turn,
 )
 from viaspline.kernels.fleet.order_state import (
+    FIRST,
+    NOBODY,
     OPEN,
+    SECOND,
     TOUCHED,
     WORK,
     OrderState,
     keep,
     new_order_state,
     settle,
+    show_law,
     undo,
 )
 from viaspline.kernels.fleet.packed_courses import PackedCourses
@@ -34,8 +37,8 @@ from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.packed_rides import PackedRides
-from viaspline.kernels.fleet.ride_law import new_ride
-from viaspline.kernels.fleet.yielding_ride import RideScene, take_law
+from viaspline.kernels.fleet.ride_law import new_ride, take_law
+from viaspline.kernels.fleet.yielding_ride import RideScene
 from viaspline.kernels.jit import inner, kernel
 
 MOST_RIDES = 40
@@ -51,15 +54,15 @@ ASIDE_S = 0.1
 
 
 @inner
-def _cost(
-    scene: RideScene, state: OrderState, weight: Floats, crossing: int, leader: int, second: int,
-    most: int,
-) -> float:  # fmt: skip
-    """Settle an order; what it counts that all are held up by it [s], infinite if it can't be."""
-    settle(state, crossing, leader)
-    robots = np.array([second])
+def _cost(scene: RideScene, state: OrderState, weight: Floats, passage: int, most: int) -> float:
+    """Let a robot pass second; what it counts that all are held up by that [s].
+
+    Infinite if it can't be.
+    """
+    settle(state, passage, SECOND)
+    leader, second = scene.passages.other[passage], state.owner[passage]
     steady = leader if most == MOST_RIDES else NOBODY
-    if not timed_in_turn(scene, state, robots, steady, most):
+    if not timed_in_turn(scene, state, np.array([second]), steady, most):
         return np.inf
     return -gained(scene, state, weight)
 
@@ -72,26 +75,27 @@ def _undo(scene: RideScene, state: OrderState) -> None:
 @inner
 def _settle_best(scene: RideScene, state: OrderState, weight: Floats, passage: int) -> bool:
     """Settle who passes first where two robots meet. Whether that could be."""
-    crossing = scene.passages.crossing[passage]
-    leader, second, late = sooner_leader(scene, state, weight, passage)
+    behind, late = sooner_leader(scene, state, weight, passage)
     if late == np.inf:
         return False
-    cost = _cost(scene, state, weight, crossing, leader, second, MOST_RIDES)
+    ahead = state.mate[behind]
+    leader, second = scene.passages.other[behind], state.owner[behind]
+    cost = _cost(scene, state, weight, behind, MOST_RIDES)
     if cost <= ASIDE_SHARE * late + ASIDE_S:
         return True
     _undo(scene, state)
     if state.movable[leader] and (cost == np.inf or weight[leader] == weight[second]):
-        other_cost = _cost(scene, state, weight, crossing, second, leader, MOST_RIDES)
+        other_cost = _cost(scene, state, weight, ahead, MOST_RIDES)
         if other_cost < cost:
             return True
         _undo(scene, state)
     most = MOST_RIDES if cost < np.inf else MOST_RIDES_AT_LAST
-    if _cost(scene, state, weight, crossing, leader, second, most) < np.inf:
+    if _cost(scene, state, weight, behind, most) < np.inf:
         return True
     _undo(scene, state)
     if not state.movable[leader]:
         return False
-    if _cost(scene, state, weight, crossing, second, leader, most) < np.inf:
+    if _cost(scene, state, weight, ahead, most) < np.inf:
         return True
     _undo(scene, state)
     return False
@@ -105,16 +109,16 @@ def _settle_forced(scene: RideScene, state: OrderState) -> None:
     """
     courses, passages = scene.courses, scene.passages
     for p in range(passages.crossing.size):
-        c, robot, other = passages.crossing[p], passages.other[state.mate[p]], passages.other[p]
+        robot, other = state.owner[p], passages.other[p]
         rests = passages.exit[p] == courses.first[robot + 1] - 2
-        leader = OPEN
+        rank = OPEN
         if passages.entry[p] == courses.first[robot]:
-            leader = robot
+            rank = FIRST
         elif rests and not scene.rides.vanishes[robot]:
-            leader = other
+            rank = SECOND
         both = state.movable[robot] and state.movable[other]
-        if leader != OPEN and state.leader[c] == OPEN and both:
-            settle(state, c, leader)
+        if rank != OPEN and state.rank[p] == OPEN and both:
+            settle(state, p, rank)
     robots = np.flatnonzero(state.movable)
     if timed_in_turn(scene, state, robots, NOBODY, RIDES_EACH * robots.size):
         keep(state)
@@ -128,10 +132,11 @@ def _leave_out(scene: RideScene, state: OrderState, robot: int) -> None:
     passages = scene.passages
     scene.laws.is_timed[robot] = False
     state.movable[robot] = False
+    show_law(scene.courses, passages, scene.laws, state, robot, scene.courses.first[robot])
     held = np.zeros(state.movable.size, np.bool_)
     for p in range(passages.first[robot], passages.first[robot + 1]):
         other = passages.other[p]
-        if state.binds[state.mate[p]] and state.movable[other]:
+        if state.movable[other] and state.binds[state.mate[p]]:
             held[other] = True
     robots = np.flatnonzero(held)
     if not timed_in_turn(scene, state, robots, NOBODY, MOST_RIDES_AT_LAST):
@@ -159,10 +164,10 @@ def first_come_laws(
         How many nodes and passages were looked at.
     """
     scene = RideScene(courses, crossings, passages, rides, laws)
-    state = new_order_state(courses, passages, crossings.robots.shape[0], movable.copy())
     for robot in range(movable.size):
         if movable[robot]:
             take_law(new_ride(courses, rides, robot), laws)
+    state = new_order_state(courses, passages, laws, crossings.robots.shape[0], movable.copy())
     _settle_forced(scene, state)
     soonest = np.full(movable.size, np.inf)
     for robot in range(movable.size):
@@ -184,7 +189,8 @@ def first_come_laws(
             soonest[out] = np.inf
         for i in range(state.counts[TOUCHED]):
             one = state.touched[i]
-            soonest[one] = next_meeting(scene, state, one)[0]
+            if state.has_law[one] and one not in (robot, other):
+                soonest[one] = next_meeting(scene, state, one)[0]
         for one in (robot, other):
             if state.movable[one]:
                 soonest[one] = next_meeting(scene, state, one)[0]

@@ -21,7 +21,8 @@ from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.kernels.fleet.random_numbers import random_below
-from viaspline.kernels.fleet.yielding_ride import CLEAR, RideScene, take_law, yielding_ride
+from viaspline.kernels.fleet.ride_law import take_law
+from viaspline.kernels.fleet.yielding_ride import CLEAR, RideScene, yielding_ride
 from viaspline.kernels.jit import inner, kernel
 
 MOST: Final = 8
@@ -101,9 +102,7 @@ def _in_the_way(scene: RideScene, robot: int, movable: Flags, chosen: Ints) -> i
 def _waits_for(scene: RideScene, robot: int, movable: Flags, chosen: Ints, most: int) -> int:
     """Choose those that a robot may have waited for. How many then."""
     count = 1
-    courses, crossings, passages, laws = (
-        scene.courses, scene.crossings, scene.passages, scene.laws,
-    )  # fmt: skip
+    courses, passages, laws = scene.courses, scene.passages, scene.laws
     blocks = blocks_of(courses, passages, laws, robot)
     for i in range(blocks.since.size):
         p = blocks.begin + i
@@ -113,12 +112,12 @@ def _waits_for(scene: RideScene, robot: int, movable: Flags, chosen: Ints, most:
         if laws.arrive[passages.entry[p]] > blocks.until[i] + CLOSE_S:
             continue
         at, begin = (
-            know_passage(courses, crossings, passages, laws, blocks, i),
+            know_passage(courses, passages, laws, blocks, i),
             passages.box_first[p],
         )
         is_close = False
         for j in range(passages.box_first[p + 1] - begin):
-            gap = laws.arrive[crossings.cell[passages.box[begin + j]]] - blocks.times[at + j, 1]
+            gap = laws.arrive[passages.cell[begin + j]] - blocks.times[at + j, 1]
             is_close = is_close or 0.0 <= gap < CLOSE_S
         other = passages.other[p]
         if is_close and count < most and movable[other] and not (chosen[:count] == other).any():

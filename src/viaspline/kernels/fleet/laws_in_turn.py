@@ -11,32 +11,48 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.order_state import OPEN, TOUCHED, WORK, OrderState, settle, touch
-from viaspline.kernels.fleet.ride_in_turn import meets, ride_in_turn, too_early
-from viaspline.kernels.fleet.yielding_ride import RideScene, differs, take_law
-from viaspline.kernels.jit import inner
+from viaspline.kernels.fleet.order_state import (
+    FIRST,
+    NOBODY,
+    OPEN,
+    SECOND,
+    TOUCHED,
+    WORK,
+    OrderState,
+    keep_law,
+    settle,
+    show_law,
+    touch,
+)
+from viaspline.kernels.fleet.ride_in_turn import NEARLY_S, meets, ride_in_turn, too_early
+from viaspline.kernels.fleet.ride_law import first_change, take_law
+from viaspline.kernels.fleet.yielding_ride import RideScene
+from viaspline.kernels.jit import inner, uncounted
 
-NOBODY = -1
-"""No robot."""
 MOST_VISITS = 12
 """How often a robot is timed at a time, before robots are taken to wait in a circle,"""
 PATIENT_VISITS = 6
 """and how often before it waits as near to crossings as it can."""
 
 
-@inner
+@uncounted
 def _queue_followers(scene: RideScene, state: OrderState, robot: int, tail: int) -> int:
     """Queue those who pass after a robot and have to be timed anew. Where the queue then ends."""
     passages, laws = scene.passages, scene.laws
     last = scene.courses.first[robot + 1] - 1
     for p in range(passages.first[robot], passages.first[robot + 1]):
         other = passages.other[p]
-        is_first = state.leader[passages.crossing[p]] == robot
-        if not is_first or state.is_queued[other] or not state.movable[other]:
+        mate = state.mate[p]
+        if state.rank[p] != FIRST or mate == NOBODY or state.is_queued[other]:
             continue
-        after, mate = passages.exit[p] + 1, state.mate[p]
+        if not state.movable[other]:
+            continue
+        after = passages.exit[p] + 1
         gone = laws.leave[after] if after == last else laws.arrive[after]
-        if state.binds[mate] or gone > laws.arrive[passages.entry[mate]]:
+        if state.binds[mate] or (
+            gone > laws.arrive[passages.entry[mate]]
+            and too_early(scene, laws.arrive, 0, scene.courses.first[other], mate) > -NEARLY_S
+        ):
             state.is_queued[other] = True
             state.queue[tail] = other
             tail = (tail + 1) % state.queue.size
@@ -72,7 +88,7 @@ def timed_in_turn(
         state.is_queued[robot] = False
         if not ends:
             continue
-        touch(scene.courses, scene.passages, scene.laws, state, robot)
+        touch(scene.passages, state, robot)
         state.visits[robot] += 1
         rides += 1
         if rides > most or state.visits[robot] > MOST_VISITS:
@@ -81,43 +97,46 @@ def timed_in_turn(
         ride, ends = ride_in_turn(scene, state, robot, state.visits[robot] > PATIENT_VISITS)
         state.counts[WORK] += ride.square.size
         state.counts[WORK] += scene.passages.first[robot + 1] - scene.passages.first[robot]
-        if not ends or not differs(ride, scene.laws):
+        change = first_change(ride, scene.laws) if ends else -1
+        if change < 0:
             continue
+        keep_law(scene.courses, scene.laws, state, robot)
         take_law(ride, scene.laws)
+        show_law(scene.courses, scene.passages, scene.laws, state, robot, ride.first + change)
         ends = robot != steady
         tail = _queue_followers(scene, state, robot, tail)
     return ends
 
 
-@inner
+@uncounted
 def gained(scene: RideScene, state: OrderState, weight: Floats) -> float:
     """How much sooner the robots that a try touched arrive by it, weighed [s]."""
     total = 0.0
     for i in range(state.counts[TOUCHED]):
         robot = state.touched[i]
         end = scene.courses.first[robot + 1] - 1
-        total += weight[robot] * (state.law[end, 0] - scene.laws.arrive[end])
+        if state.has_law[robot]:
+            total += weight[robot] * (state.law[end, 0] - scene.laws.arrive[end])
     return total
 
 
-@inner
+@uncounted
 def next_meeting(scene: RideScene, state: OrderState, robot: int) -> tuple[float, int]:
     """When a robot first meets another one with which no order is settled [s], and its passage.
 
     Infinite and -1 where it meets none.
     """
-    courses, passages, laws = scene.courses, scene.passages, scene.laws
+    courses, passages, laws, window = scene.courses, scene.passages, scene.laws, state.window
     first, last = courses.first[robot], courses.first[robot + 1] - 1
-    arrive, leave = laws.arrive[first : last + 1], laws.leave[first : last + 1]
     soonest, found = np.inf, -1
     for p in range(passages.first[robot], passages.first[robot + 1]):
-        if state.leader[passages.crossing[p]] != OPEN:
+        if state.rank[p] != OPEN:
             continue
-        low, other = passages.low[p], passages.other[p]
         comes = laws.arrive[passages.entry[p]] if passages.entry[p] > first else -np.inf
-        there = laws.arrive[low] if low > courses.first[other] else -np.inf
-        both = max(comes, there)
-        if both < soonest and meets(scene, arrive, leave, first, p):
+        if comes >= soonest:
+            break
+        both = max(comes, window[p, 0])
+        if both < soonest and meets(scene, window, laws.arrive, laws.leave, 0, first, last, p):
             soonest, found = both, p
     return soonest, found
 
@@ -125,29 +144,31 @@ def next_meeting(scene: RideScene, state: OrderState, robot: int) -> tuple[float
 @inner
 def sooner_leader(
     scene: RideScene, state: OrderState, weight: Floats, passage: int
-) -> tuple[int, int, float]:
+) -> tuple[int, float]:
     """Who should pass a crossing first: who counts more, else who would be held up longer.
 
+    Args:
+        scene: What the robots ride among.
+        state: Who may be held up.
+        weight: What a second of a robot's lateness counts, (n,).
+        passage: The crossing, from the side of one robot.
+
     Returns:
-        (the first one, the second one, what it counts that this one is held up [s], infinite where
+        (the passage of the second one, what it counts that this one is held up [s], infinite where
         neither can pass after the other).
     """
     courses, laws, passages = scene.courses, scene.laws, scene.passages
     mate = state.mate[passage]
-    one, other = passages.other[mate], passages.other[passage]
+    one, other = state.owner[passage], passages.other[passage]
     late, other_late = np.inf, np.inf
     if state.movable[one]:
-        begin, end = courses.first[one], courses.first[one + 1]
-        late = weight[one] * too_early(scene, laws.arrive[begin:end], begin, passage)
-    if state.movable[other]:
-        begin, end = courses.first[other], courses.first[other + 1]
-        other_late = weight[other] * too_early(scene, laws.arrive[begin:end], begin, mate)
+        late = weight[one] * too_early(scene, laws.arrive, 0, courses.first[one], passage)
+    if state.movable[other] and mate != NOBODY:
+        other_late = weight[other] * too_early(scene, laws.arrive, 0, courses.first[other], mate)
     is_second = late < other_late
     if weight[one] != weight[other] and late < np.inf and other_late < np.inf:
         is_second = weight[one] < weight[other]
-    if is_second:
-        return other, one, late
-    return one, other, other_late
+    return (passage, late) if is_second else (mate, other_late)
 
 
 @inner
@@ -195,11 +216,12 @@ def settle_meetings(
             if when > state.when[robot]:  # the other one is gone meanwhile
                 passage = -1
             state.when[robot] = when
-        leader, second[0], late = sooner_leader(scene, state, weight, passage)
+        behind, late = sooner_leader(scene, state, weight, passage)
         tries -= 1
         if tries < 0 or late == np.inf:
             return False
-        settle(state, scene.passages.crossing[passage], leader)
+        settle(state, behind, SECOND)
+        second[0] = state.owner[behind]
         if not timed_in_turn(scene, state, second, NOBODY, most):
             return False
         state.when[robot], _ = next_meeting(scene, state, robot)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from viaspline.kernels.arrays import Ints, Steps
+from viaspline.kernels.arrays import Floats, Ints, Steps
 
 
 class PackedPassages(NamedTuple):
@@ -26,6 +26,8 @@ class PackedPassages(NamedTuple):
         high: The one in which that ends, (p,).
         box_first: Where the boxes of a passage begin in ``box``, (p + 1,).
         box: The boxes of the fleet's crossings, passage by passage, increasing in each, (boxes,).
+        cell: Their cells, (boxes,).
+        interval: From where to where along the other's path they are [m], (boxes, 2).
     """
 
     first: Ints
@@ -37,3 +39,5 @@ class PackedPassages(NamedTuple):
     high: Ints
     box_first: Ints
     box: Steps
+    cell: Steps
+    interval: Floats

@@ -1,7 +1,8 @@
 """The ride of a robot that comes to each crossing after those that pass it before.
 
 It drives as if it were alone, except where it would come too early: there it is slowed down, if it
-can with a running start, and where it then meets as few others as it can.
+can with a running start, and where it then meets as few others as it can. Where it gives way to the
+same ones by as much as in its last ride, it does as it did then.
 
 Tested through ``kernels/fleet/test_first_come_laws``.
 """
@@ -13,11 +14,12 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.fleet.blocked_times import comes_between, goes_between
-from viaspline.kernels.fleet.order_state import OrderState
-from viaspline.kernels.fleet.ride_law import Ride, can_slow_at, new_ride, slow_down
+from viaspline.kernels.fleet.blocked_times import comes_in_cell, goes_in_cell, node_near
+from viaspline.kernels.fleet.notches import can_slow_at, cut_notch, notch_for
+from viaspline.kernels.fleet.order_state import SECOND, OrderState
+from viaspline.kernels.fleet.ride_law import Ride, copy_ride, new_ride
 from viaspline.kernels.fleet.yielding_ride import TIME_SLACK_S, RideScene, waits_at
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inner, uncounted
 
 NEARLY_S = 1e-7
 """Who comes so little after it may is held up as well."""
@@ -25,100 +27,125 @@ ALL = 1 << 30
 """More meetings than there can be."""
 
 
-@inner
-def too_early(scene: RideScene, arrive: Floats, first: int, passage: int) -> float:
+@uncounted
+def too_early(scene: RideScene, arrive: Floats, shift: int, first: int, passage: int) -> float:
     """How much too early a robot comes for letting the other one pass before it [s].
 
     Args:
         scene: What it rides among.
-        arrive: When it comes to its nodes [s], (m,).
-        first: The first one of these.
+        arrive: When it comes to nodes [s].
+        shift: Which node of the courses the first of these is.
+        first: The first node of the robot.
         passage: Where the other one is to pass; infinite where that can't be.
     """
-    crossings, passages = scene.crossings, scene.passages
+    courses, passages, laws = scene.courses, scene.passages, scene.laws
     if passages.entry[passage] == first:
         return np.inf  # it begins there
-    other, low, after = passages.other[passage], passages.low[passage], passages.high[passage] + 1
+    other, k = passages.other[passage], passages.low[passage]
+    begin, end = courses.first[other], courses.first[other + 1] - 1
     late = -np.inf
     for j in range(passages.box_first[passage], passages.box_first[passage + 1]):
-        b = passages.box[j]
-        gone = goes_between(scene.courses, scene.laws, other, low, after, crossings.high[b])
-        late = max(late, gone - arrive[crossings.cell[b] - first])
+        until = passages.interval[j, 1]
+        k = node_near(courses.distance, begin, end, k, until)
+        gone = goes_in_cell(courses, laws, other, k, until)
+        late = max(late, gone - arrive[passages.cell[j] - shift])
     return late
 
 
-@inner
-def meets(scene: RideScene, arrive: Floats, leave: Floats, first: int, passage: int) -> bool:
+@uncounted
+def meets(
+    scene: RideScene, window: Floats, arrive: Floats, leave: Floats, shift: int, first: int,
+    last: int, passage: int,
+) -> bool:  # fmt: skip
     """Whether a robot is in a box of a passage while the other one is there.
 
     Args:
         scene: What it rides among.
-        arrive: When it comes to its nodes [s], (m,).
-        leave: When it goes on [s], (m,).
-        first: The first one of these.
+        window: See ``OrderState``.
+        arrive: When it comes to nodes [s].
+        leave: When it goes on [s].
+        shift: Which node of the courses the first of these is.
+        first: The first node of the robot.
+        last: Its last node.
         passage: Where they may meet.
     """
-    courses, crossings, passages = scene.courses, scene.crossings, scene.passages
-    other, low, after = passages.other[passage], passages.low[passage], passages.high[passage] + 1
-    laws, end = scene.laws, arrive.size - 1
-    if not laws.is_timed[other]:
+    courses, passages, laws = scene.courses, scene.passages, scene.laws
+    entry, after = passages.entry[passage], passages.exit[passage] + 1
+    comes = arrive[entry - shift] if entry > first else -np.inf
+    if comes >= window[passage, 1]:
         return False
-    k, last = passages.entry[passage] - first, passages.exit[passage] - first
-    comes = arrive[k] if k > 0 else -np.inf
-    goes = arrive[last + 1] if last + 1 < end else leave[end]
-    there = laws.arrive[low] if low > courses.first[other] else -np.inf
-    gone = laws.leave[after] if after == courses.first[other + 1] - 1 else laws.arrive[after]
-    if comes >= gone or goes <= there:
+    goes = arrive[after - shift] if after < last else leave[last - shift]
+    if goes <= window[passage, 0]:
         return False
+    other, low = passages.other[passage], passages.low[passage]
+    begin, end, high = courses.first[other], courses.first[other + 1] - 1, low
     for j in range(passages.box_first[passage], passages.box_first[passage + 1]):
-        b = passages.box[j]
-        k = crossings.cell[b] - first
-        comes = arrive[k] if k > 0 else -np.inf
-        goes = arrive[k + 1] if k + 1 < end else leave[end]
-        if (
-            comes < goes_between(courses, laws, other, low, after, crossings.high[b])
-            and goes > comes_between(courses, laws, other, low, after, crossings.low[b])
-        ):  # fmt: skip
+        cell, since, until = passages.cell[j], passages.interval[j, 0], passages.interval[j, 1]
+        comes = arrive[cell - shift] if cell > first else -np.inf
+        high = node_near(courses.distance, begin, end, high, until)
+        if comes >= goes_in_cell(courses, laws, other, high, until):
+            continue
+        goes = arrive[cell + 1 - shift] if cell + 1 < last else leave[last - shift]
+        low = node_near(courses.distance, begin, end, low, since)
+        if goes > comes_in_cell(courses, laws, other, low, since):
             return True
     return False
 
 
-@inner
-def _meetings(scene: RideScene, ride: Ride, since: int, entry: int, most: int) -> int:
-    """How many others a ride meets between two nodes; ``most`` is enough."""
-    count = 0
-    for p in range(scene.passages.first[ride.robot], scene.passages.first[ride.robot + 1]):
-        if scene.passages.entry[p] - ride.first >= entry or count >= most:
-            break
-        if scene.passages.exit[p] - ride.first < since:
-            continue
-        if meets(scene, ride.arrive, ride.leave, ride.first, p):
+@uncounted
+def _meetings(
+    scene: RideScene, state: OrderState, ride: Ride, begin: int, passage: int, most: int
+) -> int:
+    """How many others a ride meets after a node and before a passage; ``most`` is enough."""
+    entry, reach = scene.passages.entry, state.reach
+    until, since = entry[passage], ride.first + begin
+    count, p = 0, passage - 1
+    while p >= scene.passages.first[ride.robot] and reach[p] >= since and count < most:
+        if (
+            entry[p] < until
+            and scene.passages.exit[p] >= since
+            and meets(
+                scene, state.window, ride.arrive, ride.leave, ride.first, ride.first, ride.last, p
+            )
+        ):
             count += 1
+        p -= 1
     return count
 
 
 @inner
-def _give_way(scene: RideScene, ride: Ride, entry: int, late: float) -> None:
-    """Slow a ride down so that it comes later to a node, and meets few before that."""
+def _give_way(
+    scene: RideScene, state: OrderState, ride: Ride, tried: Ride, passage: int, late: float
+) -> tuple[int, float, float]:
+    """Slow a ride down so that it comes later to a passage, and meets few before that.
+
+    Args:
+        scene: What it rides among.
+        state: What the others do.
+        ride: It is written to.
+        tried: The same ride; it is written to alike.
+        passage: Where the other one passes first.
+        late: How much too early the ride comes there [s].
+
+    Returns:
+        The notch that does it: see ``cut_notch``.
+    """
     courses, rides = scene.courses, scene.rides
+    entry = scene.passages.entry[passage] - ride.first
     places = waits_at(ride, courses, rides, entry)
-    square, waits = ride.square.copy(), ride.waits.copy()
-    arrive, leave = ride.arrive.copy(), ride.leave.copy()
-    best, fewest = 0, ALL
-    for i in range(places.size):
-        slow_down(ride, courses, rides, places[i], entry, late)
-        since = 0  # from where on the robot is later than before
-        while ride.square[since] == square[since] and ride.waits[since] == waits[since]:
-            since += 1
-        met = _meetings(scene, ride, max(since - 1, 0), entry, fewest)
-        if met == 0:
-            return
+    centre, floor, wait, fewest = places[0], 0.0, 0.0, ALL
+    for place in places:
+        low, stands = notch_for(ride, courses, rides, place, entry, late + TIME_SLACK_S)
+        begin = cut_notch(tried, courses, rides, place, low, stands)
+        met = _meetings(scene, state, tried, begin, passage, fewest)
+        copy_ride(ride, tried, begin)
         if met < fewest:
-            best, fewest = i, met
-        for k in range(max(since - 1, 0), square.size):
-            ride.square[k], ride.waits[k] = square[k], waits[k]
-            ride.arrive[k], ride.leave[k] = arrive[k], leave[k]
-    slow_down(ride, courses, rides, places[best], entry, late)
+            centre, floor, wait, fewest = place, low, stands, met
+        if met == 0:
+            break
+    cut_notch(ride, courses, rides, centre, floor, wait)
+    cut_notch(tried, courses, rides, centre, floor, wait)
+    return centre, floor, wait
 
 
 @inner
@@ -128,7 +155,8 @@ def _wait_before(scene: RideScene, ride: Ride, entry: int, late: float) -> None:
     back, centre = waits_at(ride, courses, rides, entry)[0], entry
     while centre > back and not can_slow_at(ride, courses, rides, centre):
         centre -= 1
-    slow_down(ride, courses, rides, centre, entry, late)
+    floor, wait = notch_for(ride, courses, rides, centre, entry, late + TIME_SLACK_S)
+    cut_notch(ride, courses, rides, centre, floor, wait)
 
 
 @inner
@@ -139,31 +167,50 @@ def ride_in_turn(
 
     Args:
         scene: What it rides among.
-        state: Who passes before it; ``binds`` of the robot is written to.
+        state: Who passes before it; ``binds`` of the robot is written to, and where it gave way.
         robot: Which one.
         is_near: Whether it waits as near to crossings as it can.
 
     Returns:
         (ride, whether it comes after all of them).
     """
-    courses, passages, laws = scene.courses, scene.passages, scene.laws
+    courses, passages, window = scene.courses, scene.passages, state.window
     ride = new_ride(courses, scene.rides, robot)
+    tried = ride
+    first, log, is_as_before = ride.first, passages.first[robot], not is_near
+    count, known = 0, state.given[robot]
+    state.given[robot] = 0
     for p in range(passages.first[robot], passages.first[robot + 1]):
-        other = passages.other[p]
         state.binds[p] = False
-        if state.leader[passages.crossing[p]] != other or not laws.is_timed[other]:
+        if state.rank[p] != SECOND or window[p, 1] == -np.inf:
             continue
-        after = passages.high[p] + 1
-        gone = laws.leave[after] if after == courses.first[other + 1] - 1 else laws.arrive[after]
-        entry = passages.entry[p] - ride.first
-        if entry > 0 and gone <= ride.arrive[entry]:
+        entry = passages.entry[p] - first
+        if entry > 0 and window[p, 1] <= ride.arrive[entry]:
             continue
-        late = too_early(scene, ride.arrive, ride.first, p)
+        late = too_early(scene, ride.arrive, first, first, p)
         if math.isinf(late):
             return ride, False
         state.binds[p] = late > -NEARLY_S
-        if late > 0.0 and is_near:
-            _wait_before(scene, ride, entry, late + TIME_SLACK_S)
-        elif late > 0.0:
-            _give_way(scene, ride, entry, late + TIME_SLACK_S)
+        if late <= 0.0:
+            continue
+        if is_near:
+            _wait_before(scene, ride, entry, late)
+            continue
+        k = log + count
+        is_known = is_as_before and count < known and state.gave[k] == p
+        if is_known and state.gave_by[k, 0] == late:
+            cut_notch(
+                ride, courses, scene.rides, state.gave_at[k], state.gave_by[k, 1],
+                state.gave_by[k, 2],
+            )  # fmt: skip
+        else:
+            if is_as_before:
+                is_as_before = False
+                tried = new_ride(courses, scene.rides, robot)
+                copy_ride(ride, tried, 0)
+            centre, floor, wait = _give_way(scene, state, ride, tried, p, late)
+            state.gave[k], state.gave_at[k], state.gave_by[k, 0] = p, centre, late
+            state.gave_by[k, 1], state.gave_by[k, 2] = floor, wait
+        count += 1
+    state.given[robot] = count
     return ride, True

@@ -1,8 +1,4 @@
-"""The law of one robot at its nodes: its times from its speeds, slowed down by notches.
-
-A *notch* slows a robot down round one node: it brakes to a low speed there, stands if that isn't
-enough, and speeds up again. Of two laws the lower one, node by node, keeps what both keep: how much
-faster or slower it gets on the way, and the largest speeds. So notches add up.
+"""The law of one robot at its nodes while it is sought.
 
 Tested through ``kernels/fleet/test_yielding_ride``.
 """
@@ -16,11 +12,12 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_courses import PackedCourses
+from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inner, uncounted
 
-HALVINGS = 40
-"""Of the square of a speed, until a notch delays by as much as it should."""
+SAME_S = 1e-9
+"""By less than this a law doesn't change."""
 
 
 class Ride(NamedTuple):
@@ -31,7 +28,6 @@ class Ride(NamedTuple):
         first: Its first node.
         last: Its last node.
         square: Of its speed at its nodes [m²/s²], (m,).
-        waits: How long it stands there beyond what it has to [s], (m,).
         arrive: When it comes there [s], (m,).
         leave: When it goes on [s], (m,).
     """
@@ -40,7 +36,6 @@ class Ride(NamedTuple):
     first: int
     last: int
     square: Floats
-    waits: Floats
     arrive: Floats
     leave: Floats
 
@@ -50,127 +45,50 @@ def new_ride(courses: PackedCourses, rides: PackedRides, robot: int) -> Ride:
     """The ride of a robot as if it were alone."""
     first, last = courses.first[robot], courses.first[robot + 1] - 1
     count = last - first + 1
-    ride = Ride(
-        robot, first, last, np.empty(count), np.empty(count), np.empty(count), np.empty(count)
-    )
-    forget_notches(ride, courses, rides)
+    ride = Ride(robot, first, last, np.empty(count), np.empty(count), np.empty(count))
+    ride_alone(ride, rides)
     return ride
 
 
-@inner
-def forget_notches(ride: Ride, courses: PackedCourses, rides: PackedRides) -> None:
-    """The ride as if the robot were alone, again."""
-    for k in range(ride.square.size):
-        ride.square[k] = rides.square[ride.first + k]
-        ride.waits[k] = 0.0
-    ride.arrive[0] = rides.depart[ride.robot]
-    set_times(ride, courses, rides, 0)
+@uncounted
+def ride_alone(ride: Ride, rides: PackedRides) -> None:
+    """Let a robot ride as if it were alone."""
+    end = ride.last - ride.first
+    comes = rides.depart[ride.robot]
+    for k in range(end):
+        node = ride.first + k
+        ride.square[k], ride.arrive[k] = rides.square[node], comes
+        ride.leave[k] = comes + rides.stays[node]
+        comes = ride.leave[k] + rides.lasts[node]
+    ride.square[end], ride.arrive[end] = rides.square[ride.last], comes
+    ride.leave[end] = comes + rides.stays[ride.last] if rides.vanishes[ride.robot] else np.inf
 
 
-@inner
-def cell_lasts(ride: Ride, courses: PackedCourses, rides: PackedRides, k: int) -> float:
-    """How long the cell from node k of a ride takes [s]."""
-    node = ride.first + k
-    here, there = ride.square[k], ride.square[k + 1]
-    if here == rides.square[node] and there == rides.square[node + 1]:
-        return rides.lasts[node]
-    width = courses.distance[node + 1] - courses.distance[node]
-    return 2.0 * width / (math.sqrt(here) + math.sqrt(there))
+@uncounted
+def copy_ride(ride: Ride, out: Ride, begin: int) -> None:
+    """Copy a ride from a node on to another one of the same robot, which is as it is before."""
+    for k in range(begin, ride.last - ride.first + 1):
+        out.square[k] = ride.square[k]
+        out.arrive[k], out.leave[k] = ride.arrive[k], ride.leave[k]
 
 
-@inner
-def set_times(ride: Ride, courses: PackedCourses, rides: PackedRides, start: int) -> None:
-    """Reckon the times anew from node ``start`` on."""
-    end = ride.square.size - 1
-    for k in range(start, end):
-        ride.leave[k] = ride.arrive[k] + rides.stays[ride.first + k] + ride.waits[k]
-        ride.arrive[k + 1] = ride.leave[k] + cell_lasts(ride, courses, rides, k)
-    stays = rides.stays[ride.first + end] if rides.vanishes[ride.robot] else np.inf
-    ride.leave[end] = ride.arrive[end] + stays
+@uncounted
+def first_change(ride: Ride, laws: PackedLaws) -> int:
+    """The first node at which a ride has other times than the law of its robot; -1: none."""
+    if abs(ride.leave[0] - laws.leave[ride.first]) > SAME_S:
+        return 0
+    for k in range(ride.last - ride.first + 1):
+        if abs(ride.arrive[k] - laws.arrive[ride.first + k]) > SAME_S:
+            return k
+    return -1
 
 
-@inner
-def _notched(
-    ride: Ride, courses: PackedCourses, rides: PackedRides, centre: int, floor: float, k: int
-) -> float:
-    """The square of the speed at node k with a notch that goes down to ``floor``."""
-    along = courses.distance[ride.first + k] - courses.distance[ride.first + centre]
-    rise = rides.accel[ride.robot] if along > 0.0 else rides.brake[ride.robot]
-    return min(ride.square[k], floor + 2.0 * rise * abs(along))
-
-
-@inner
-def _delay(
-    ride: Ride, courses: PackedCourses, rides: PackedRides, centre: int, floor: float, until: int
-) -> float:
-    """How much later a notch brings the robot to node ``until`` [s], however long it stands."""
-    late = 0.0
-    for way in (-1, 1):
-        k = centre
-        while (k > 0) if way < 0 else (k < until):
-            near = _notched(ride, courses, rides, centre, floor, k)
-            far = _notched(ride, courses, rides, centre, floor, k + way)
-            if near == ride.square[k] and far == ride.square[k + way]:
-                break
-            begin = min(k, k + way)
-            node = ride.first + begin
-            width = courses.distance[node + 1] - courses.distance[node]
-            both = math.sqrt(near) + math.sqrt(far)
-            late += 2.0 * width / both - cell_lasts(ride, courses, rides, begin)
-            k += way
-    return late
-
-
-@inner
-def can_slow_at(ride: Ride, courses: PackedCourses, rides: PackedRides, centre: int) -> bool:
-    """Whether a robot can be slowed down to rest at a node."""
-    if ride.square[centre] == 0.0:
-        return True
-    if rides.keeps_pace[ride.robot] or centre == 0 or centre == ride.square.size - 1:
-        return False
-    if ride.square[centre - 1] == 0.0 or ride.square[centre + 1] == 0.0:
-        return False  # it would have to stand at both
-    return _notched(ride, courses, rides, centre, 0.0, 0) >= ride.square[0]
-
-
-@inner
-def slow_down(
-    ride: Ride, courses: PackedCourses, rides: PackedRides, centre: int, until: int, late: float
-) -> None:
-    """Delay a ride by a notch so that it comes to node ``until`` so much later.
-
-    Args:
-        ride: It is written to.
-        courses: PackedCourses.
-        rides: PackedRides.
-        centre: Where the robot is slowest, at ``until`` or before it.
-        until: The node.
-        late: By how much [s].
-    """
-    if ride.square[centre] == 0.0:
-        ride.waits[centre] += late
-        set_times(ride, courses, rides, centre)
-        return
-    floor, most = 0.0, _delay(ride, courses, rides, centre, 0.0, until)
-    if most > late:
-        high = ride.square[centre]
-        for _ in range(HALVINGS):
-            middle = 0.5 * (floor + high)
-            if _delay(ride, courses, rides, centre, middle, until) >= late:
-                floor = middle
-            else:
-                high = middle
-    begin = centre
-    for way in (-1, 1):
-        k = centre + way
-        while 0 <= k < ride.square.size:
-            low = _notched(ride, courses, rides, centre, floor, k)
-            if low == ride.square[k]:
-                break
-            ride.square[k] = low
-            begin = min(begin, k)
-            k += way
-    ride.square[centre] = floor
-    if most < late:
-        ride.waits[centre] += late - most
-    set_times(ride, courses, rides, max(begin - 1, 0))
+@uncounted
+def take_law(ride: Ride, laws: PackedLaws) -> None:
+    """Write a ride into the laws of its fleet."""
+    for k in range(ride.last - ride.first + 1):
+        node = ride.first + k
+        laws.arrive[node] = ride.arrive[k]
+        laws.leave[node] = ride.leave[k]
+        laws.speed[node] = math.sqrt(ride.square[k])
+    laws.is_timed[ride.robot] = True

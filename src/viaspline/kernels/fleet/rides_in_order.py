@@ -13,12 +13,13 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.blocked_times import goes_from
+from viaspline.kernels.fleet.notches import can_slow_at, slow_down
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
-from viaspline.kernels.fleet.ride_law import Ride, can_slow_at, new_ride, slow_down
-from viaspline.kernels.fleet.yielding_ride import differs, take_law, waits_at
+from viaspline.kernels.fleet.ride_law import Ride, first_change, new_ride, take_law
+from viaspline.kernels.fleet.yielding_ride import waits_at
 from viaspline.kernels.jit import inner, kernel
 
 SLACK_S = 1e-9
@@ -95,7 +96,7 @@ def rides_in_order(
             is_due[robot] = False
             releases = _releases(courses, crossings, laws, second, robot)
             ride, keeps[robot] = _ride_after(courses, rides, robot, releases, 2 * k >= rounds)
-            if differs(ride, laws):
+            if first_change(ride, laws) >= 0:
                 take_law(ride, laws)
                 is_settled = False
                 keeps[robot] = keeps[robot] and k + 1 < rounds

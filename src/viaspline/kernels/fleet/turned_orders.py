@@ -10,12 +10,16 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
-from viaspline.kernels.fleet.laws_in_turn import NOBODY, settle_meetings, timed_in_turn
+from viaspline.kernels.fleet.laws_in_turn import settle_meetings, timed_in_turn
 from viaspline.kernels.fleet.order_state import (
+    FIRST,
+    NOBODY,
+    SECOND,
     WORK,
     OrderState,
     keep,
     new_order_state,
+    rank_both,
     settle,
     undo,
 )
@@ -46,7 +50,7 @@ def _settle_as_driven(scene: RideScene, state: OrderState) -> None:
     """Settle the orders by which robots are held up, as their laws have it; the rest stays open."""
     courses, passages, laws = scene.courses, scene.passages, scene.laws
     for p in range(passages.crossing.size):
-        robot, other = passages.other[state.mate[p]], passages.other[p]
+        robot, other = state.owner[p], passages.other[p]
         first, after = courses.first[robot], passages.high[p] + 1
         if not (state.movable[robot] and laws.is_timed[other]) or passages.entry[p] == first:
             continue
@@ -54,9 +58,9 @@ def _settle_as_driven(scene: RideScene, state: OrderState) -> None:
         comes = laws.arrive[passages.entry[p]]
         if gone <= comes - NEARLY_S or laws.arrive[passages.low[p]] > comes:
             continue
-        late = too_early(scene, laws.arrive[first : courses.first[robot + 1]], first, p)
-        if abs(late) < NEARLY_S:
-            state.leader[passages.crossing[p]], state.binds[p] = other, True
+        if abs(too_early(scene, laws.arrive, 0, first, p)) < NEARLY_S:
+            rank_both(state, p, SECOND)
+            state.binds[p] = True
 
 
 @inner
@@ -95,7 +99,7 @@ def _turned(scene: RideScene, state: OrderState, robot: int, random: Ints) -> In
     robots[0] = robot
     known = 1
     for p in movable[:count]:
-        settle(state, passages.crossing[p], robot)
+        settle(state, p, FIRST)
         other = passages.other[p]
         if not (robots[:known] == other).any():
             robots[known] = other
@@ -127,7 +131,7 @@ def turned_orders(
         How many were.
     """
     scene = RideScene(courses, crossings, passages, rides, laws)
-    state = new_order_state(courses, passages, crossings.robots.shape[0], movable)
+    state = new_order_state(courses, passages, laws, crossings.robots.shape[0], movable)
     _settle_as_driven(scene, state)
     state.counts[WORK] = passages.crossing.size
     while state.counts[WORK] < work:

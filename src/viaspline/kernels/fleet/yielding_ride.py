@@ -18,27 +18,19 @@ import numpy as np
 
 from viaspline.kernels.arrays import Ints
 from viaspline.kernels.fleet.blocked_times import Blocks, blocks_of, know_passage
+from viaspline.kernels.fleet.notches import can_slow_at, cut_notch, slow_down
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.packed_rides import PackedRides
-from viaspline.kernels.fleet.ride_law import (
-    Ride,
-    can_slow_at,
-    forget_notches,
-    new_ride,
-    set_times,
-    slow_down,
-)
+from viaspline.kernels.fleet.ride_law import Ride, copy_ride, new_ride, ride_alone, take_law
 from viaspline.kernels.jit import inner, kernel
 
 CLEAR: Final = -1
 """No box is in the way."""
 TIME_SLACK_S = 1e-9
 """So much later than needed a robot comes to a crossing: for rounding."""
-SAME_S = 1e-9
-"""By less than this a law doesn't change."""
 STEPS_BACK = 8
 """Places farther back at which it is tried to wait: so many, up to the start."""
 STEPS_AHEAD = 4
@@ -66,18 +58,17 @@ class RideScene(NamedTuple):
 @inner
 def _first_blocked(scene: RideScene, ride: Ride, blocks: Blocks, i: int, before: int) -> int:
     """The first box of passage i in which a ride is while the other one is there, or CLEAR."""
-    at = know_passage(scene.courses, scene.crossings, scene.passages, scene.laws, blocks, i)
+    at = know_passage(scene.courses, scene.passages, scene.laws, blocks, i)
     p, end = blocks.begin + i, ride.square.size - 1
     begin = scene.passages.box_first[p]
     for j in range(scene.passages.box_first[p + 1] - begin):
-        b = scene.passages.box[begin + j]
-        k = scene.crossings.cell[b] - ride.first
+        k = scene.passages.cell[begin + j] - ride.first
         if k >= before:
             break
         comes = ride.arrive[k] if k > 0 else -np.inf
         goes = ride.arrive[k + 1] if k + 1 < end else ride.leave[end]
         if comes < blocks.times[at + j, 1] and goes > blocks.times[at + j, 0]:
-            return b
+            return scene.passages.box[begin + j]
     return CLEAR
 
 
@@ -108,11 +99,11 @@ def _blocking(scene: RideScene, ride: Ride, blocks: Blocks, before: int) -> tupl
 @inner
 def _lateness(scene: RideScene, ride: Ride, blocks: Blocks, i: int) -> tuple[int, float]:
     """The first node of passage i, and how much too early a ride is for letting the other pass."""
-    at = know_passage(scene.courses, scene.crossings, scene.passages, scene.laws, blocks, i)
+    at = know_passage(scene.courses, scene.passages, scene.laws, blocks, i)
     p = blocks.begin + i
     begin, late = scene.passages.box_first[p], 0.0
     for j in range(scene.passages.box_first[p + 1] - begin):
-        k = scene.crossings.cell[scene.passages.box[begin + j]] - ride.first
+        k = scene.passages.cell[begin + j] - ride.first
         late = max(late, blocks.times[at + j, 1] - ride.arrive[k])
     return scene.passages.entry[p] - ride.first, late
 
@@ -159,24 +150,35 @@ def waits_at(ride: Ride, courses: PackedCourses, rides: PackedRides, entry: int)
 
 
 @inner
-def _give_way(scene: RideScene, ride: Ride, blocks: Blocks, entry: int, late: float) -> None:
-    """Slow a ride down so that it comes later to a crossing, clear of all before it if it can."""
+def _give_way(
+    scene: RideScene, ride: Ride, before: Ride, blocks: Blocks, entry: int, late: float
+) -> None:
+    """Slow a ride down so that it comes later to a crossing, clear of all before it if it can.
+
+    Args:
+        scene: What it rides among.
+        ride: It is written to.
+        before: Room for the ride as it was.
+        blocks: When it is blocked.
+        entry: The node at which the crossing begins.
+        late: How much later it has to come there [s].
+    """
     courses, rides = scene.courses, scene.rides
     places = waits_at(ride, courses, rides, entry)
-    square, waits = ride.square.copy(), ride.waits.copy()
+    copy_ride(ride, before, 0)
     for i in range(places.size + 1):  # after the last one, the first again
-        slow_down(ride, courses, rides, places[i % places.size], entry, late + TIME_SLACK_S)
+        place = places[i % places.size]
+        begin = slow_down(ride, courses, rides, place, entry, late + TIME_SLACK_S)
         if i == places.size or _blocking(scene, ride, blocks, entry)[0] == CLEAR:
             return
-        for k in range(square.size):
-            ride.square[k], ride.waits[k] = square[k], waits[k]
-        set_times(ride, courses, rides, 0)
+        copy_ride(before, ride, begin)
 
 
 @inner
 def _ridden(scene: RideScene, robot: int) -> tuple[Ride, int, bool]:
     """See ``yielding_ride``; and whether it would have to let the same one pass once more."""
     ride = new_ride(scene.courses, scene.rides, robot)
+    before = new_ride(scene.courses, scene.rides, robot)
     blocks = blocks_of(scene.courses, scene.passages, scene.laws, robot)
     yields = np.empty(blocks.since.size, np.int64)  # passages, in the order of their first cells
     count = 0
@@ -195,11 +197,13 @@ def _ridden(scene: RideScene, robot: int) -> tuple[Ride, int, bool]:
         while k > 0 and _lateness(scene, ride, blocks, yields[k - 1])[0] > entry:
             yields[k - 1], yields[k] = yields[k], yields[k - 1]
             k -= 1
-        forget_notches(ride, scene.courses, scene.rides)
-        for i in range(count):
+        if k < count - 1:  # it gives way anew to all, one after the other
+            ride_alone(ride, scene.rides)
+            k = 0
+        for i in range(k, count):
             entry, late = _lateness(scene, ride, blocks, yields[i])
             if late > 0.0:
-                _give_way(scene, ride, blocks, entry, late)
+                _give_way(scene, ride, before, blocks, entry, late)
 
 
 @inner
@@ -233,32 +237,11 @@ def patient_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
         arrives = laws.arrive[courses.first[other + 1] - 1]
         if laws.is_timed[other] and arrives < np.inf:
             over = max(over, arrives)
-    forget_notches(ride, courses, scene.rides)
-    ride.waits[0] = max(0.0, over + TIME_SLACK_S - ride.leave[0])
-    set_times(ride, courses, scene.rides, 0)
+    ride_alone(ride, scene.rides)
+    cut_notch(ride, courses, scene.rides, 0, 0.0, max(0.0, over + TIME_SLACK_S - ride.leave[0]))
     blocks = blocks_of(courses, scene.passages, laws, robot)
     met, _ = _blocking(scene, ride, blocks, ride.square.size)
     return ride, CLEAR if met == CLEAR else box
-
-
-@inner
-def take_law(ride: Ride, laws: PackedLaws) -> None:
-    """Write a ride into the laws of its fleet."""
-    for k in range(ride.square.size):
-        node = ride.first + k
-        laws.arrive[node] = ride.arrive[k]
-        laws.leave[node] = ride.leave[k]
-        laws.speed[node] = math.sqrt(ride.square[k])
-    laws.is_timed[ride.robot] = True
-
-
-@inner
-def differs(ride: Ride, laws: PackedLaws) -> bool:
-    """Whether a ride has other times than the law that its robot has."""
-    for k in range(ride.square.size):
-        if abs(ride.arrive[k] - laws.arrive[ride.first + k]) > SAME_S:
-            return True
-    return abs(ride.leave[0] - laws.leave[ride.first]) > SAME_S
 
 
 @kernel
