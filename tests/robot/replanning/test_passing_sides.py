@@ -55,7 +55,7 @@ def test_a_side_that_a_step_has_no_time_to_compare_is_asked_about_first_in_the_n
     route = mission.route.model_copy(update={"detours": "local"})  # which is the longer search
     mission = mission.model_copy(update={"route": route})
     post = mission.world.unseen
-    _, states = drive(mission, lambda time: post if round(time / STEP) // 3 % 2 else ())
+    _, states = drive(mission, lambda time: post if round(time / STEP) // 2 % 2 else ())
     pending = [nav._state.schedule.pending for nav in states]
     doubts = [one.doubt for one in pending if one is not None and one.doubt is not None]
     assert doubts

@@ -33,6 +33,7 @@ HOPELESS_ROUNDS = 40  # in which the least change isn't halved: they go round an
 ROUGHLY_HOPELESS_ROUNDS = 16  # the same, where they need to settle roughly only
 ACCELERATED_RAD = 0.05  # change of a heading from which on the next changes are foreseen [rad]
 MAX_OVERSHOOT = 20.0  # of such a change
+LEAST_SIDED_RAD = 1e-9  # to the other side than that which is set: none [rad]
 GENTLE_TURN_RAD = 1.2  # turns up to this are reckoned from where their lines meet [rad]
 
 
@@ -57,12 +58,15 @@ def _line(circles: Floats, i: int, j: int) -> float:
 @inner
 def _turn_at(bend: Floats, before: float, after: float, last: float) -> float:
     """By how much the path turns at a bend, left positive; ``last`` is what it was."""
-    turn = wrapped(after - before, last)
-    if not math.isnan(bend[HEADING]) and bend[SIDE] * turn < 0.0:
-        turn += bend[SIDE] * 2.0 * math.pi  # from a given heading, to the given side
-        if abs(turn) > 2.0 * math.pi - 1e-9:
-            turn = 0.0
-    return turn
+    if math.isnan(bend[HEADING]):
+        return wrapped(after - before, last)
+    if bend[SIDE] == 0.0:  # the lesser turn, which near half a turn stays to the side where it is
+        return wrapped(after - before, min(max(last, -0.5 * math.pi), 0.5 * math.pi))
+    # To the given side, by less than a whole turn: what was nearly one may have gone beyond it,
+    # and is hardly any then.
+    turned = bend[SIDE] * (after - before)
+    turned -= 2.0 * math.pi * math.floor((turned + LEAST_SIDED_RAD) / (2.0 * math.pi))
+    return bend[SIDE] * max(turned, 0.0)
 
 
 @inner

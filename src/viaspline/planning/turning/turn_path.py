@@ -17,7 +17,7 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.turning.needed_turns import needed_turns
 from viaspline.kernels.turning.settled_lines import FINE
 from viaspline.kernels.turning.turn_spans import turn_sequence_length, turn_sequence_spans
-from viaspline.planning.turning.bend_row import HEADING, SIDE, Bends
+from viaspline.planning.turning.bend_row import HEADING, KEPT, SIDE, Bends, X, Y
 
 OVERSHOOT = 1.0035  # of the least radius over the turning circle: cubics bend a little more
 RAMP = 1.0  # length of a ramp, in radii
@@ -134,10 +134,28 @@ def settled_turns(bends: Bends, ramp: float = RAMP) -> SettledTurns | NoTurnPath
 
 
 def with_sides(bends: Bends) -> Iterator[Bends]:
-    """Every choice of the sides to which given headings at the ends are left."""
-    ends = [k for k in (0, -1) if not bends.closed and not math.isnan(bends.rows[k, HEADING])]
-    for sides in product((1.0, -1.0), repeat=len(ends)):
+    """Every choice of the turns by which given headings at the ends are left: two for each.
+
+    One is the lesser turn, to whichever side it comes to be: where the heading is nearly that of
+    its line, that is known only once the turns have settled. The other one goes to the other side.
+    """
+    given = [] if bends.closed else [k for k in (0, -1) if math.isfinite(bends.rows[k, HEADING])]
+    for sides in product(*((0.0, -_lesser_side(bends.rows, k)) for k in given)):
         rows = bends.rows.copy()
-        for k, side in zip(ends, sides, strict=True):
+        for k, side in zip(given, sides, strict=True):
             rows[k, SIDE] = side
         yield replace(bends, rows=rows)
+
+
+def _lesser_side(rows: Floats, end: int) -> float:
+    """The side to which the turn at an end is the lesser one, if the next bend is as it is."""
+    first, last = rows[[0, 1]] if end == 0 else rows[[-2, -1]]
+    ahead = last[[X, Y]] - first[[X, Y]]
+    gap = math.hypot(*ahead)
+    bent = last if end == 0 else first
+    across = bent[SIDE] * bent[KEPT] * (1.0 if end == 0 else -1.0)
+    line = math.atan2(ahead[1], ahead[0])
+    if gap > abs(across):
+        line -= math.asin(across / gap)
+    turn = line - rows[0, HEADING] if end == 0 else rows[-1, HEADING] - line
+    return math.copysign(1.0, math.remainder(turn, math.tau))
