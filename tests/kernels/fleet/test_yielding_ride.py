@@ -97,3 +97,22 @@ def test_one_behind_another_stays_behind_without_stopping() -> None:
     assert found == [-1, -1]
     assert nearest_two(courses, laws) >= 2.0 * REACH
     assert laws.arrive[-1] < 27.0 + 3.0
+
+
+def test_who_is_under_way_and_can_no_more_slow_down_has_no_law() -> None:
+    lines: list[Line] = [((0.0, 0.0), (30.0, 0.0)), ((6.0, -6.0), (6.0, 24.0))]
+    courses = courses_on(lines, REACH)
+    crossings = crossings_on(courses)
+    alone, laws = rides_on(courses), no_laws(courses)
+    square = alone.square.copy()
+    nodes = slice(int(courses.first[1]), int(courses.first[2]))
+    square[nodes] = np.maximum(square[nodes], 25.0)  # 5 m/s, all the way
+    rides = alone._replace(square=square)
+    found = timed_in_order(
+        courses, crossings, passages_of(courses, crossings), rides, laws, np.arange(2)
+    )
+    begins = laws.arrive[nodes][0]
+    assert found[0] == -1
+    assert found[1] >= 0
+    assert begins == 0.0
+    assert not laws.is_timed[1]

@@ -128,11 +128,13 @@ def _give_way(
         late: How much too early the ride comes there [s].
 
     Returns:
-        The notch that does it: see ``cut_notch``.
+        The notch that does it: see ``cut_notch``; its centre is -1 where there is none.
     """
     courses, rides = scene.courses, scene.rides
     entry = scene.passages.entry[passage] - ride.first
     places = waits_at(ride, courses, rides, entry)
+    if places.size == 0:
+        return -1, 0.0, 0.0
     centre, floor, wait, fewest = places[0], 0.0, 0.0, ALL
     for place in places:
         low, stands = notch_for(ride, courses, rides, place, entry, late + TIME_SLACK_S)
@@ -149,14 +151,18 @@ def _give_way(
 
 
 @inner
-def _wait_before(scene: RideScene, ride: Ride, entry: int, late: float) -> None:
-    """Slow a ride down right before a node, wherever it meets others by that."""
+def _wait_before(scene: RideScene, ride: Ride, entry: int, late: float) -> bool:
+    """Slow a ride down right before a node, wherever it meets others by that, if it can be."""
     courses, rides = scene.courses, scene.rides
-    back, centre = waits_at(ride, courses, rides, entry)[0], entry
+    places = waits_at(ride, courses, rides, entry)
+    if places.size == 0:
+        return False
+    back, centre = places[0], entry
     while centre > back and not can_slow_at(ride, courses, rides, centre):
         centre -= 1
     floor, wait = notch_for(ride, courses, rides, centre, entry, late + TIME_SLACK_S)
     cut_notch(ride, courses, rides, centre, floor, wait)
+    return True
 
 
 @inner
@@ -194,7 +200,8 @@ def ride_in_turn(
         if late <= 0.0:
             continue
         if is_near:
-            _wait_before(scene, ride, entry, late)
+            if not _wait_before(scene, ride, entry, late):
+                return ride, False
             continue
         k = log + count
         is_known = is_as_before and count < known and state.gave[k] == p
@@ -209,6 +216,8 @@ def ride_in_turn(
                 tried = new_ride(courses, scene.rides, robot)
                 copy_ride(ride, tried, 0)
             centre, floor, wait = _give_way(scene, state, ride, tried, p, late)
+            if centre < 0:
+                return ride, False
             state.gave[k], state.gave_at[k], state.gave_by[k, 0] = p, centre, late
             state.gave_by[k, 1], state.gave_by[k, 2] = floor, wait
         count += 1

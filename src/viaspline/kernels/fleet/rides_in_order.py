@@ -57,8 +57,10 @@ def _ride_after(
         if late == np.inf:
             return ride, False
         if late > 0.0:
-            centre = waits_at(ride, courses, rides, k)[0]
-            back = k
+            places = waits_at(ride, courses, rides, k)
+            if places.size == 0:
+                return ride, False
+            centre, back = places[0], k
             while near and back > centre and not can_slow_at(ride, courses, rides, back):
                 back -= 1
             slow_down(ride, courses, rides, back if near else centre, k, late)

@@ -121,7 +121,10 @@ def _running_start(ride: Ride, courses: PackedCourses, rides: PackedRides, entry
 
 @inner
 def waits_at(ride: Ride, courses: PackedCourses, rides: PackedRides, entry: int) -> Ints:
-    """Nodes at which it can be slowed down for a crossing, the best first."""
+    """Nodes at which it can be slowed down for a crossing, the best first.
+
+    None where it neither rests nor can come to rest before that: it is under way.
+    """
     best = _running_start(ride, courses, rides, entry)
     places = np.empty(STEPS_BACK + STEPS_AHEAD + 2, np.int64)
     places[0] = best
@@ -143,16 +146,17 @@ def waits_at(ride: Ride, courses: PackedCourses, rides: PackedRides, entry: int)
                 break
     if kept == 0:  # it waits at its last rest
         k = entry
-        while ride.square[k] > 0.0:
+        while k >= 0 and ride.square[k] > 0.0:
             k -= 1
-        places[0], kept = k, 1
+        if k >= 0:
+            places[0], kept = k, 1
     return places[:kept]
 
 
 @inner
 def _give_way(
     scene: RideScene, ride: Ride, before: Ride, blocks: Blocks, entry: int, late: float
-) -> None:
+) -> bool:
     """Slow a ride down so that it comes later to a crossing, clear of all before it if it can.
 
     Args:
@@ -162,16 +166,22 @@ def _give_way(
         blocks: When it is blocked.
         entry: The node at which the crossing begins.
         late: How much later it has to come there [s].
+
+    Returns:
+        Whether it can be slowed down before that.
     """
     courses, rides = scene.courses, scene.rides
     places = waits_at(ride, courses, rides, entry)
+    if places.size == 0:
+        return False
     copy_ride(ride, before, 0)
     for i in range(places.size + 1):  # after the last one, the first again
         place = places[i % places.size]
         begin = slow_down(ride, courses, rides, place, entry, late + TIME_SLACK_S)
         if i == places.size or _blocking(scene, ride, blocks, entry)[0] == CLEAR:
-            return
+            break
         copy_ride(before, ride, begin)
+    return True
 
 
 @inner
@@ -202,8 +212,8 @@ def _ridden(scene: RideScene, robot: int) -> tuple[Ride, int, bool]:
             k = 0
         for i in range(k, count):
             entry, late = _lateness(scene, ride, blocks, yields[i])
-            if late > 0.0:
-                _give_way(scene, ride, before, blocks, entry, late)
+            if late > 0.0 and not _give_way(scene, ride, before, blocks, entry, late):
+                return ride, box, False
 
 
 @inner
@@ -238,6 +248,8 @@ def patient_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
         if laws.is_timed[other] and arrives < np.inf:
             over = max(over, arrives)
     ride_alone(ride, scene.rides)
+    if ride.square[0] > 0.0:
+        return ride, box  # it is under way
     cut_notch(ride, courses, scene.rides, 0, 0.0, max(0.0, over + TIME_SLACK_S - ride.leave[0]))
     blocks = blocks_of(courses, scene.passages, laws, robot)
     met, _ = _blocking(scene, ride, blocks, ride.square.size)
