@@ -5,6 +5,7 @@ Tested through ``planning/methods/test_ordered``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
@@ -23,6 +24,7 @@ from viaspline.planning.checking.driving_time import driving_time, leg_time
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.asked_sides import AskedSides
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import on_the_line
@@ -44,6 +46,7 @@ from viaspline.world.world import World
 FREE_TURN_RADII = (3.0, 1.5)
 LEAST_FREE_TURN_RADIUS = 0.5
 ROOMY_TURN_RADIUS = 2.0  # of turns where there is room, even if sharper ones are as fast
+LOOP_RAD = 1.25 * math.pi  # a turn by more is a loop: it begins to the other side
 MUCH_LOST = 1.07  # time of a leg, over that of a straight line
 LEAST_REQUIRED_M = 1e-3  # that these are of
 DEAR_LANE = 1.05  # driven time of a leg on its line over the shortest way's; nobody asked for that
@@ -205,15 +208,34 @@ class DrivenProblem(PathProblem):
             spline_path = self._turns_on_blocked(taut_paths, tried)
             if spline_path is not None:
                 return spline_path
-        for legs, rho in self._at_radii(again):
-            bends = bends_of_legs(self.sequence, legs)
-            turn_path = self._turns_round(bends, rho, self._rests_at_ends)
-            if turn_path is None:
-                continue
-            spline_path = through_turns(self.sequence, [turn_path])
-            if self.keeps_sides(spline_path):
-                return spline_path
-        return None
+        return self._cheapest_unwound(again)
+
+    def _cheapest_unwound(self, choices: Iterable[RowBends]) -> SplinePath | None:
+        """The first that is laid; where that makes a loop, the cheapest up to one that makes none.
+
+        A wide turn into a given heading may have room by a loop alone, where a sharper one needs
+        none.
+        """
+        best: SplinePath | None = None
+        cost = math.inf
+        try:
+            for legs, rho in self._at_radii(choices):
+                bends = bends_of_legs(self.sequence, legs)
+                turn_path = self._turns_round(bends, rho, self._rests_at_ends)
+                if turn_path is None:
+                    continue
+                spline_path = through_turns(self.sequence, [turn_path])
+                if not self.keeps_sides(spline_path):
+                    continue
+                its_cost = self.cost(spline_path)
+                if its_cost < cost:
+                    best, cost = spline_path, its_cost
+                if float(np.abs(turn_path.turns).max()) < LOOP_RAD:
+                    break
+        except SpentBudgetError:
+            if best is None:
+                raise
+        return best
 
     def _at_radii(self, choices: Iterable[RowBends]) -> Iterator[tuple[RowBends, float]]:
         """Each choice of bends with every least radius of turns [m]."""
