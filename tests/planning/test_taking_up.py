@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
+from viaspline.machine.turns_on_spot import corners
 from viaspline.planning.checking.driving_time import driving_time
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import WorkBudget
@@ -91,3 +92,40 @@ def test_nothing_is_sought_where_little_work_is_left() -> None:
     little = Requirements(**{**vars(needs), "budget": WorkBudget(LEFT_S)})
     late = reflex(plan.path, 150.0, world, little)
     assert late.rejoins_at == pytest.approx(late.path.distance(late.path.vias[-2].u))
+
+
+def station_behind_a_wall(**robot: object) -> tuple[vs.Plan, vs.World]:
+    """A station to the north, and a wall across the way that is longer on its left."""
+    asked = vs.Mission.model_validate(
+        {
+            "robot": {"radius_m": 0.4, "clearance_m": 0.3, "max_speed_mps": 1.2,
+                      "max_accel_mps2": 0.6, "max_lateral_accel_mps2": 0.5, **robot},
+            "route": {"start": [0, 0], "via": [{"at": [2, 20], "dwell_s": 5}], "goal": [40, 21]},
+        }
+    )  # fmt: skip
+    plan = vs.plan(asked)
+    wall = vs.Obstacle(capsule={"from": (-9.0, 16.0), "to": (4.5, 18.3), "radius": 0.1})
+    return plan, plan.world.with_obstacles([wall])
+
+
+def test_a_robot_that_stands_at_its_station_turns_there_instead_of_a_loop_before_it() -> None:
+    plan, world = station_behind_a_wall()
+    new = reflex(plan.path, 5.0, world, Requirements.of(plan.mission))
+    station = next(via for via in new.path.vias if via.index == 1)
+    at, angles = corners(new.path)
+    assert at == pytest.approx([new.path.distance(station.u)])
+    assert abs(angles[0]) > 0.3
+    assert station.dwell == 5.0
+    u = np.linspace(*new.path.domain, 20_001)
+    assert float(np.min(world.distance(new.path.evaluate(u)))) > 0.7 - 1e-6
+    headings = np.unwrap(np.asarray(new.path.heading(u)))
+    assert np.ptp(headings) < 1.5 * np.pi  # and no circle
+    names = [via.name for via in plan.path.vias if via.kind == "user"]
+    assert [via.name for via in new.path.vias if via.kind == "user"] == names
+
+
+def test_a_robot_that_never_turns_on_the_spot_arrives_as_it_did_on_its_old_path() -> None:
+    plan, world = station_behind_a_wall(min_turn_radius_m=1.0, turn_on_spot="never")
+    new = reflex(plan.path, 5.0, world, Requirements.of(plan.mission))
+    assert corners(new.path)[0].size == 0
+    assert new.path.curvature_jumps().max() < 1e-6

@@ -73,18 +73,17 @@ class BlockedTurnError(NoPathError):
 
 
 def refuse_blocked_turn(
-    path: Path, u: float, span: Floats, world: World, requirements: Requirements
+    heading: float, span: Floats, world: World, requirements: Requirements
 ) -> None:
-    """Raise BlockedTurnError for a body that stands at u and can't turn to where a span begins.
+    """Raise BlockedTurnError for a body that stands and can't turn to where a span begins.
 
     Args:
-        path: On which it stands.
-        u: Where.
+        heading: In which it stands [rad].
         span: By which it is to go on [m], (4, d).
         world: What it keeps clear of.
         requirements: The body.
     """
-    index = turn_conflict(world, float(path.heading(u)), span[:, :2], requirements)
+    index = turn_conflict(world, heading, span[:, :2], requirements)
     if index != CLEAR:
         name = world.name(index)
         raise BlockedTurnError(

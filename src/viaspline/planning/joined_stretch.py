@@ -23,24 +23,20 @@ from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.departure import (
     BlockedTurnError,
     Leave,
-    refuse_blocked,
     refuse_blocked_turn,
-    refuse_no_room,
     rolling,
 )
 from viaspline.planning.nearby import lay_nearby
 from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.splice import run_out
-from viaspline.planning.problem.via_sequence import RouteVia
 from viaspline.planning.problem.work_budget import SpentBudgetError
+from viaspline.planning.rejoining import Rejoin, merging
 from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.planning.sides_ahead import refuse_wrong_side
 from viaspline.planning.stretch import (
     PASSED_M,
     Stretch,
     refuse_the_end,
-    room_to_run_out,
     sequence_through,
 )
 from viaspline.world.world import World
@@ -55,6 +51,7 @@ def joined(
     requirements: Requirements,
     until: float,
     leave: Leave = rolling,
+    rejoin_by: Rejoin = merging,
 ) -> Solution:
     """The new path with the first run-out, from long to short, that lets it be clear.
 
@@ -65,6 +62,7 @@ def joined(
         requirements: What to keep.
         until: Distance along the path from which it is not looked at yet [m].
         leave: How it is left.
+        rejoin_by: How it is taken up again.
 
     Raises:
         NoPathError: When there is no way.
@@ -73,9 +71,10 @@ def joined(
     refuse_the_end(path, stretch)
     problem: PlanningError | None = None
     for reach in _run_outs(stretch, requirements, leave):
-        lay = partial(_join, path, stretch, leave, world, requirements, reach, until)
+        lay = partial(_join, path, stretch, leave, rejoin_by, world, requirements, reach, until)
         try:
-            return _once(requirements, (path, stretch, leave, world, reach, until), lay)
+            asked = (path, stretch, leave, rejoin_by, world, reach, until)
+            return _once(requirements, asked, lay)
         except (BlockedLegError, BlockedTurnError, SpentBudgetError):
             raise  # a run-out is clear: where none leads on from one, none does from another
         except PlanningError as error:
@@ -112,29 +111,27 @@ def _join(
     path: Path,
     stretch: Stretch,
     leave: Leave,
+    rejoin_by: Rejoin,
     world: World,
     requirements: Requirements,
     reach: float,
     until: float,
 ) -> Solution:
     departure = leave(path, stretch, world, requirements, reach)
-    tail, back = stretch.tail, None
-    if tail is not None:
-        last_room = room_to_run_out(path, stretch)[1]
-        refuse_no_room(path, tail.u, last_room)
-        back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
-        refuse_blocked(back, world, requirements)
-    meet = None if back is None else RouteVia("the old path", back.span[0], None)
+    tail = stretch.tail
+    rejoining = None if tail is None else rejoin_by(path, stretch, tail, world, requirements, reach)
+    meet = None if rejoining is None else rejoining.end
     sequence = replace(
         sequence_through(path, departure.start, stretch, requirements, meet),
         start_tangent=departure.tangent,
     )
     if len(departure.spans):
         refuse_wrong_side(departure.spans, sequence.whole_leg(0), world, requirements)
-    if back is not None:
-        last_leg = sequence.whole_leg(len(sequence.legs) - 1)
-        refuse_wrong_side(back.span[None], last_leg, world, requirements)
-        sequence = replace(sequence, end_tangent=back.tangent)
+    if rejoining is not None:
+        if len(rejoining.spans):
+            last_leg = sequence.whole_leg(len(sequence.legs) - 1)
+            refuse_wrong_side(rejoining.spans, last_leg, world, requirements)
+        sequence = replace(sequence, end_tangent=rejoining.tangent)
     if tail is None:
         spline_path, account = lay_path(sequence, world, requirements)
     else:
@@ -142,16 +139,21 @@ def _join(
         spline_path, account = lay_nearby(sequence, old, world, requirements)
     spans = spline_path.spans
     if not len(departure.spans):
-        refuse_blocked_turn(path, stretch.u, spans[0], world, requirements)
+        heading = float(path.heading(stretch.u))
+        refuse_blocked_turn(heading, spans[0], world, requirements)
     head = head_until(path, stretch.u)
     first = len(head) + len(departure.spans)
     pieces = [head, departure.spans, spans]
     vias = [*vias_until(path, stretch.u, len(head)), *spline_path.vias_from(first)]
-    ahead = first + len(spans)
     rejoin = None
-    if tail is not None and back is not None:
-        pieces += [back.span[None], path.spans[round(tail.u) :]]
-        rejoin = ahead + 1
+    if tail is not None and rejoining is not None:
+        rest = path.spans[round(tail.u) :]
+        if not len(rejoining.spans):
+            heading = float(PiecewiseCubic(spans[-1:]).heading(1.0))
+            refuse_blocked_turn(heading, rest[0], world, requirements)
+            vias.pop()  # it is one of the old path's
+        pieces += [rejoining.spans, rest]
+        rejoin = first + len(spans) + len(rejoining.spans)
         vias += [replace(via, u=via.u - tail.u + rejoin) for via in path.vias if via.u >= tail.u]
     new = Path(np.concatenate(pieces), vias)
     leaving = float(new.distance(float(len(head))))

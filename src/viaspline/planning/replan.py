@@ -36,7 +36,7 @@ from viaspline.planning.stretch import (
     stretch_round,
     stretches_on_round,
 )
-from viaspline.planning.taking_up import sooner_if_better
+from viaspline.planning.taking_up import best_taken_up
 from viaspline.planning.way_ahead import WayAhead
 from viaspline.world.world import World
 
@@ -100,13 +100,13 @@ def _led_round(way: WayAhead, blocked: NDArray[np.intp]) -> Solution:
     narrow = stretch_round(way.path.vias, users, way.u, blocked)
     wide = stretch_round(users, users, way.u, blocked)
     try:
-        return sooner_if_better(way, narrow, blocked, way.joined(narrow, rolling))
+        return best_taken_up(way, narrow, blocked, way.joined(narrow, rolling))
     except SpentBudgetError:
         raise
     except PlanningError:
         if wide == narrow:
             raise
-    return sooner_if_better(way, wide, blocked, way.joined(wide, rolling))
+    return best_taken_up(way, wide, blocked, way.joined(wide, rolling))
 
 
 def planned(

@@ -1,9 +1,12 @@
-"""Where a path that leads round something takes up the old one again: a via point, or sooner.
+"""Where and how a path that leads round something takes up the old one again.
 
 A turn that has a via point in its middle begins before that. A path that takes up the old one at
 the via point has to get from its own line into the middle of the turn; one that takes it up where
 its last blocked span ends turns as the old one did. Behind what is close to that end the first is
 the gentler one, so that both are laid where the first is late.
+
+A robot that stands at the via point in any case may turn there: where it comes from another side
+than it did on the old path, that spares it a loop before its station.
 
 Tested through ``planning/test_taking_up``.
 """
@@ -11,6 +14,7 @@ Tested through ``planning/test_taking_up``.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 
@@ -24,6 +28,7 @@ from viaspline.planning.checking.driving_time import driving_time
 from viaspline.planning.departure import rolling
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.planning.rejoining import Rejoin, may_turn, merging, turning
 from viaspline.planning.stretch import Stretch
 from viaspline.planning.way_ahead import WayAhead
 
@@ -39,10 +44,10 @@ LEFT_S = 1.5 * WORK_S
 """It isn't sought where less is left: a path that was found has to be proven and timed, too."""
 
 
-def sooner_if_better(
+def best_taken_up(
     way: WayAhead, stretch: Stretch, blocked: NDArray[np.intp], found: Solution
 ) -> Solution:
-    """The better of a path round something and one that takes up the old path before that does.
+    """The best of a path round something and those that take up the old path in other ways.
 
     Args:
         way: What is ahead.
@@ -51,28 +56,40 @@ def sooner_if_better(
         found: What came of it.
 
     Returns:
-        The path that is driven in less time, or is shorter, as the mission asks.
+        The path that is driven in the least time, or is the shortest, as the mission asks.
     """
     end = way.path.domain[1] if stretch.tail is None else stretch.tail.u
-    until = float(blocked[-1]) + 1.0
-    if until >= end:
+    others = list(_others(way, stretch, float(blocked[-1]) + 1.0, end))
+    if not others:
         return found
     rest = len(way.path.spans) - round(end)  # of the old path, that stays in any case
     before, cost = (
         _Cost.of(path, stretch.u, rest, way.requirements) for path in (way.path, found.path)
     )
     budget = way.requirements.budget
-    if cost.is_near(before) or (budget is not None and budget.left < LEFT_S):
-        return found
-    try:
-        with _some_work(budget) as one:
-            requirements = replace(way.requirements, budget=one)
-            sooner = _taken_up_at(way.path, until, stretch)
-            other = replace(way, requirements=requirements).joined(sooner, rolling)
-    except PlanningError:
-        return found
-    better = _Cost.of(other.path, stretch.u, rest, way.requirements).value < cost.value
-    return other if better else found
+    for tried, rejoin_by in others:
+        if cost.is_near(before) or (budget is not None and budget.left < LEFT_S):
+            break
+        try:
+            with _some_work(budget) as one:
+                requirements = replace(way.requirements, budget=one)
+                other = replace(way, requirements=requirements).joined(tried, rolling, rejoin_by)
+        except PlanningError:
+            continue
+        its_cost = _Cost.of(other.path, stretch.u, rest, way.requirements)
+        if its_cost.value < cost.value:
+            found, cost = other, its_cost
+    return found
+
+
+def _others(
+    way: WayAhead, stretch: Stretch, until: float, end: float
+) -> Iterator[tuple[Stretch, Rejoin]]:
+    """Where and how else the old path may be taken up: by turning at its end, or sooner."""
+    if may_turn(stretch.tail, way.requirements):
+        yield stretch, turning
+    if until < end:
+        yield _taken_up_at(way.path, until, stretch), merging
 
 
 def _taken_up_at(path: Path, u: float, stretch: Stretch) -> Stretch:

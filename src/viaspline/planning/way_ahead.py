@@ -19,6 +19,7 @@ from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.departure import Leave
 from viaspline.planning.joined_stretch import joined
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.rejoining import Rejoin, merging
 from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.planning.stretch import (
     PASSED_M,
@@ -105,15 +106,18 @@ class WayAhead:
         left_out = [via.u for via in self.path.vias if via.index in skip and via.u > self.u]
         return float(self.path.distance(max([self.u, *blocked.tolist(), *left_out])))
 
-    def joined(self, stretch: Stretch, leave: Leave) -> Solution:
+    def joined(self, stretch: Stretch, leave: Leave, rejoin_by: Rejoin = merging) -> Solution:
         """The path with a stretch of it laid anew; see ``joined_stretch``.
 
         Args:
             stretch: What of it.
             leave: How it is left.
+            rejoin_by: How it is taken up again.
 
         Raises:
             NoPathError: When there is no way.
             SpentBudgetError: When there is no time left to look for one.
         """
-        return joined(self.path, stretch, self.world, self.requirements, self.until, leave)
+        return joined(
+            self.path, stretch, self.world, self.requirements, self.until, leave, rejoin_by
+        )
