@@ -18,7 +18,7 @@ from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_paths
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
-from viaspline.fleet.patrols.driven_laps import on_nodes
+from viaspline.fleet.patrols.driven_laps import write_law
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.renewed_courses import renewed_courses
 from viaspline.fleet.renewed_crossings import renewed_crossings
@@ -30,7 +30,6 @@ from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
-from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 NOBODY: Mapping[int, int] = MappingProxyType({})
@@ -152,17 +151,12 @@ class FleetWays:
 
     def settled_laws(self) -> FleetLaws:
         """The laws of the robots that have theirs, at the nodes of the courses."""
-        packed, laws = self.courses.packed, standing_laws(self.courses)
+        laws = standing_laws(self.courses)
         for robot, name in enumerate(self.courses.names):
             if name in self.settled:
-                part = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
-                nodes = packed.distance[part]
-                law = on_nodes(self.settled[name], nodes)
-                arrive, leave, speed = law_at_nodes(law, nodes)
-                laws.packed.arrive[part], laws.packed.leave[part] = arrive, leave
-                laws.packed.arrive[part.start] = self.rides.packed.depart[robot]
-                laws.packed.speed[part] = speed
-                laws.packed.is_timed[robot] = True
+                write_law(self.settled[name], self.courses, robot, laws)
+                begins = self.courses.packed.first[robot]
+                laws.packed.arrive[begins] = self.rides.packed.depart[robot]
         return laws
 
     def with_path(self, robot: int, plan: AnyPlan, separation: float) -> FleetWays:

@@ -75,6 +75,11 @@ class DrivenFleet:
         nodes = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
         return packed.distance[nodes], packed.place[nodes]
 
+    def place_at(self, robot: int, distance: float) -> Floats:
+        """Where a distance along a robot's course is [m], (2,) or (3,)."""
+        along, places = self.course(robot)
+        return np.array([np.interp(distance, along, row) for row in places.T])
+
     @cached_property
     def alone(self) -> PackedLaws:
         """The laws of robots that set out at 0 s and never wait for another."""

@@ -115,13 +115,11 @@ def _crossed(fleet: DrivenFleet, robot: int) -> tuple[Ints, Floats, Floats]:
 
 def _in_the_way(grown: DrivenFleet, robot: int, other: int, place: float) -> GaveUpError:
     """What is told of a robot that can't be timed along its path."""
-    along, places = grown.course(robot)
-    where = np.array([np.interp(place, along, row) for row in places.T])
     name, in_its_way = grown.names[robot], grown.names[other]
     return GaveUpError(
         f"'{name}' can't be timed among those that drive: '{in_its_way}' is in its way at "
         f"{place:.1f} m",
-        where=where,
+        where=grown.place_at(robot, place),
         remedy=f"send it another way, or when '{in_its_way}' has passed",
         obstacles=(in_its_way,),
         tried=("joining",),

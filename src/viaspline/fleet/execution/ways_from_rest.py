@@ -202,8 +202,7 @@ def places_of_one_out(state: FleetProgressState, robot: int) -> tuple[list[float
 
 def _place_at(fleet: DrivenFleet, robot: int, place: float) -> tuple[float, float]:
     """Where a distance along a robot's course is [m]."""
-    along, places = fleet.course(robot)
-    x, y = (float(np.interp(place, along, places[:, axis])) for axis in (0, 1))
+    x, y = fleet.place_at(robot, place).tolist()
     return x, y
 
 

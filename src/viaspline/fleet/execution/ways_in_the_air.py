@@ -162,8 +162,7 @@ def _anywhere(
 
 def _place_at(fleet: DrivenFleet, robot: int, place: float) -> Place:
     """Where a distance along a robot's course is [m]."""
-    along, places = fleet.course(robot)
-    x, y, z = (float(np.interp(place, along, row)) for row in places.T)
+    x, y, z = fleet.place_at(robot, place).tolist()
     return x, y, z
 
 

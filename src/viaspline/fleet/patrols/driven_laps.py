@@ -10,7 +10,8 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.fleet.courses import AnyPlan
+from viaspline.fleet.courses import AnyPlan, FleetCourses
+from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats
 from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
@@ -20,6 +21,7 @@ from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import retime_in_space
+from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
@@ -218,3 +220,20 @@ def on_nodes(law: Trajectory, nodes: Floats) -> Trajectory:
     nearest = np.where(law.distances - low < high - law.distances, low, high)
     is_same = np.abs(nearest - law.distances) <= SAME_M
     return replace(law, distances=np.where(is_same, nearest, law.distances))
+
+
+def write_law(law: Trajectory, courses: FleetCourses, robot: int, laws: FleetLaws) -> None:
+    """Write a time law into the laws of a fleet, at the nodes of a robot's course.
+
+    Args:
+        law: Along the course.
+        courses: Of the fleet.
+        robot: Whose law it is.
+        laws: They are written to.
+    """
+    packed, whole = courses.packed, laws.packed
+    part = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
+    nodes = packed.distance[part]
+    arrive, leave, speed = law_at_nodes(on_nodes(law, nodes), nodes)
+    whole.arrive[part], whole.leave[part], whole.speed[part] = arrive, leave, speed
+    whole.is_timed[robot] = True

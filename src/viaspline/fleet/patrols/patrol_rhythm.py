@@ -22,10 +22,10 @@ from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.patrols.driven_laps import (
     driven_laps,
-    on_nodes,
     repeated_law,
     seams_of,
     set_out,
+    write_law,
 )
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import standing_laws
@@ -36,7 +36,6 @@ from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.planning.plan_drive import repeated
-from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 MOST_LAPS_A_PERIOD = 8
@@ -267,15 +266,9 @@ class _RoundTiming:
 
     def _write(self, robot: int, law: Trajectory, period: float, laws: FleetLaws) -> None:
         """Let the rounds of a patrol come again every period, for those that are timed after it."""
-        packed, window = self.courses.packed, len(self.members) + robot
-        part = slice(int(packed.first[window]), int(packed.first[window + 1]))
         begun = law.delayed((law.start_time % period) - law.start_time - period)
         again = repeated_law(begun, self.seams[self.members[robot].name], period)
-        nodes = packed.distance[part]
-        arrive, leave, speed = law_at_nodes(on_nodes(again, nodes), nodes)
-        laws.packed.arrive[part], laws.packed.leave[part] = arrive, leave
-        laws.packed.speed[part] = speed
-        laws.packed.is_timed[window] = True
+        write_law(again, self.courses, len(self.members) + robot, laws)
 
 
 def _stay_between(lap: AnyPlan) -> float:

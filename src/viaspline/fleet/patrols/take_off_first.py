@@ -22,7 +22,6 @@ from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.static_plan import fastest_law, headings_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile
-from viaspline.trajectory.trajectory import Trajectory
 
 
 def takes_off(plan: AnyPlan) -> bool:
@@ -44,7 +43,7 @@ def lap_of(plan: AnyPlan) -> AnyPlan:
     if not (isinstance(plan, SpatialPlan) and takes_off(plan)):
         return plan
     path = _of_laps(plan.path)
-    route, up = plan.mission.route, _ascent_law(plan).duration
+    route, up = plan.mission.route, ascent_of(plan).trajectory.duration
     start = EndPoint.model_validate(
         {**route.start.model_dump(exclude_unset=True, exclude={"agl_m"}), "at": path.vias[0].at}
     )
@@ -97,18 +96,13 @@ def ascent_of(plan: SpatialPlan) -> SpatialPlan:
         plan: As it is laid: with the take-off.
     """
     path = Path(plan.path.spans[:1], plan.path.vias[:2])
-    law = _ascent_law(plan)
-    return replace(plan, path=path, airborne=(path.length, path.length), trajectory=law)
-
-
-def _ascent_law(plan: SpatialPlan) -> Trajectory:
-    path = Path(plan.path.spans[:1], plan.path.vias[:2])
     heading = float(plan.yaw.at(plan.airborne[0]))
     yaw = YawProfile(np.array([0.0, path.length]), np.full(2, heading))
-    return retime_in_space(
+    law = retime_in_space(
         path, plan.limits, (), yaw, zones=plan.mission.world.speed_zones,
         start_time=plan.mission.route.depart_s,
     )  # fmt: skip
+    return replace(plan, path=path, airborne=(path.length, path.length), trajectory=law)
 
 
 def after_ascent(laid: SpatialPlan, laps: SpatialPlan) -> SpatialPlan:
@@ -123,7 +117,7 @@ def after_ascent(laid: SpatialPlan, laps: SpatialPlan) -> SpatialPlan:
     later = [replace(via, u=via.u + 1.0) for via in laps.path.vias[1:]]
     path = Path(np.concatenate([laid.path.spans[:1], laps.path.spans]), [ground, top, *later])
     route = laid.mission.route.model_copy(update={"laps": laps.mission.route.laps})
-    ascent = _ascent_law(laid)
+    ascent = ascent_of(laid).trajectory
     law = laps.trajectory.moved(up).delayed(ascent.end_time - laps.trajectory.start_time)
     return replace(
         laps,

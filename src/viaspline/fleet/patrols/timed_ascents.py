@@ -18,7 +18,7 @@ from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_along, fleet_path
 from viaspline.fleet.crossings import FleetCrossings, box_owners, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.patrols.driven_laps import SAME_S, on_nodes, set_out
+from viaspline.fleet.patrols.driven_laps import SAME_S, set_out, write_law
 from viaspline.fleet.space.courses_with_moving import without_boxes
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import standing_laws
@@ -27,7 +27,6 @@ from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.space.spatial_plan import SpatialPlan
-from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 
@@ -104,12 +103,7 @@ class _Ascents:
         rides = rides_of(each, [*plans, *laps.values()], courses)
         settled = standing_laws(courses)
         for robot, name in enumerate(laps, len(plans)):
-            part = slice(int(courses.packed.first[robot]), int(courses.packed.first[robot + 1]))
-            nodes = courses.packed.distance[part]
-            columns = law_at_nodes(on_nodes(laws[name], nodes), nodes)
-            for one, column in zip(settled.packed[:3], columns, strict=True):
-                one[part] = column
-            settled.packed.is_timed[robot] = True
+            write_law(laws[name], courses, robot, settled)
         return cls(members, plans, names, courses, crossings, rides, settled)
 
     def order(self) -> list[int]:

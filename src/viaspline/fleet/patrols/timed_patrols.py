@@ -21,10 +21,10 @@ from viaspline.fleet.laying.resting_places import rests_of
 from viaspline.fleet.patrols.driven_laps import (
     driven_laps,
     laws_in_a_row,
-    on_nodes,
     repeated_law,
     seams_of,
     set_out,
+    write_law,
 )
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.patrols.homes_in_the_way import PatrolMeetings
@@ -44,7 +44,6 @@ from viaspline.fleet.timing.time_paths import copied_laws
 from viaspline.kernels.arrays import Flags
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.space.spatial_plan import SpatialPlan
-from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 MOST_LAPS = 3000
@@ -222,13 +221,11 @@ class _AskedPatrols:
             rhythm: Of the patrols.
             begins: When each begins its first one [s], by name.
         """
-        packed, rides = ways.courses.packed, ways.rides
-        alone, by_clock = rides.alone.copy(), copied_laws(rides.laws.packed)
+        first, rides = ways.courses.packed.first, ways.rides
+        alone, by_clock = rides.alone.copy(), FleetLaws(copied_laws(rides.laws.packed))
         for robot, name in enumerate(self.names):
             if name not in begins:
                 continue
-            part = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
-            nodes = packed.distance[part]
             laps, plan = rhythm.laps[name], ways.plans[robot]
             ends = seams_of(plan.path, plan.mission.route.laps, spans_before_laps(plan))[::laps]
             begun = rhythm.rounds[name].trajectory
@@ -239,13 +236,10 @@ class _AskedPatrols:
                 assert isinstance(laid, SpatialPlan)
                 up = ascent_of(laid).trajectory
                 law = _behind(up.delayed(law.start_time - up.end_time), law)
-            law = on_nodes(law, nodes)
-            arrive, leave, speed = law_at_nodes(law, nodes)
-            by_clock.arrive[part], by_clock.leave[part] = arrive, leave
-            by_clock.speed[part] = speed
-            by_clock.arrive[part.start] = rides.packed.depart[robot]
+            write_law(law, ways.courses, robot, by_clock)
+            by_clock.packed.arrive[first[robot]] = rides.packed.depart[robot]
             alone[robot] = law.end_time - rides.packed.depart[robot]
-        return replace(ways, rides=replace(rides, alone=alone, laws=FleetLaws(by_clock)))
+        return replace(ways, rides=replace(rides, alone=alone, laws=by_clock))
 
     def reasons(self, out: dict[int, int]) -> dict[int, tuple[str, str]]:
         """Why robots aren't served, and what would help, where a place is in the way."""

@@ -151,10 +151,8 @@ def _lesser_side(rows: Floats, end: int) -> float:
     """The side to which the turn at an end is the lesser one, if the next bend is as it is."""
     first, last = rows[[0, 1]] if end == 0 else rows[[-2, -1]]
     ahead = last[[X, Y]] - first[[X, Y]]
-    gap = math.hypot(*ahead)
-    bent = last if end == 0 else first
-    across = bent[SIDE] * bent[KEPT] * (1.0 if end == 0 else -1.0)
-    line = math.atan2(ahead[1], ahead[0])
+    across = last[SIDE] * last[KEPT] - first[SIDE] * first[KEPT]
+    gap, line = math.hypot(*ahead), math.atan2(ahead[1], ahead[0])
     if gap > abs(across):
         line -= math.asin(across / gap)
     turn = line - rows[0, HEADING] if end == 0 else rows[-1, HEADING] - line
