@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -88,6 +89,33 @@ def test_stopping_at_any_moment_leaves_the_thread_as_it_was() -> None:
     assert stray == []
     assert ends["done"] + ends["stopped"] == 3000
     assert ends["stopped"] >= 30
+
+
+PROFILED = """
+import cProfile, threading
+from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
+
+def work():
+    for call in (lambda: 7, lambda: running.stop()):
+        running = Stoppable()
+        try:
+            running.run(call)
+        except StoppedCallError:
+            pass
+
+worker = threading.Thread(target=work)
+worker.start()
+worker.join()
+cProfile.Profile().runcall(lambda: 7)
+print("profiled")
+"""
+
+
+def test_calls_that_could_be_stopped_leave_nothing_that_the_interpreter_looks_for() -> None:
+    """CPython 3.11 profiles for ever where an exception for a thread is on its way."""
+    run = [sys.executable, "-c", PROFILED]
+    done = subprocess.run(run, capture_output=True, text=True, check=False, timeout=60)
+    assert (done.returncode, done.stdout) == (0, "profiled\n"), done.stderr
 
 
 def test_an_import_is_finished_before_the_call_is_stopped(
