@@ -100,6 +100,14 @@ def test_orders_that_were_swapped_stay_swapped_in_the_next_plan() -> None:
     assert commands["r1"].granted == 40.0
 
 
+def test_a_dead_robot_is_let_no_farther_and_others_join_in_its_way_later() -> None:
+    nav = under_way(CROSS).dead("r0", until_m=10.0)
+    _, nav = nav.step([], 31.0)
+    assert nav._state.packed.promised.tolist() == [10.0, 40.0]
+    more = nav.with_fleet(driven_on([*CROSS, ASIDE]))
+    assert more._state.packed.leaders.tolist() == [1]
+
+
 def test_who_gets_another_path_begins_it_at_its_start() -> None:
     nav = under_way([*CROSS, ASIDE], place=10.0)
     rest = ((10.0, 0.0), (10.0, 25.0))  # from where it is

@@ -112,10 +112,11 @@ def set_begin(
 
 @inlined
 def grant_of(orders: PackedOrders, dispatch: PackedDispatch, robot: int) -> float:
-    """How far a robot may go now [m]; it is taken to be promised that."""
+    """How far a robot may go now [m]; it is taken to be promised that, if it ever gets on."""
     grant = min(open_bars_of(orders, dispatch, robot), dispatch.recall_place[robot])
     grant = min(grant, dispatch.halt[robot])
-    dispatch.promised[robot] = max(dispatch.promised[robot], grant)
+    if not dispatch.fixed[robot]:
+        dispatch.promised[robot] = max(dispatch.promised[robot], grant)
     return grant
 
 
