@@ -46,7 +46,7 @@ class OtherSides:
         known = [(outcome.cost, outcome.value)]
 
         def attempt(row: TautRow, bound: float) -> Attempt[SplinePath]:
-            choices = problem.bends_along(row.taut_paths)
+            choices = problem.kept_lanes.bends_along(row.taut_paths)
             first = next(choices)
             if not problem.is_promising(first, bound):
                 return Attempt(None)

@@ -122,6 +122,10 @@ class LegBends:
         return cls(rows, np.full(len(rows), math.inf))
 
 
+RowBends = tuple[LegBends, ...]
+"""Those of all legs of a row."""
+
+
 def bends_along(sequence: ViaSequence, taut_paths: Sequence[TautPath]) -> Bends:
     """The bends of a via sequence whose legs go along taut paths."""
     return bends_of_legs(sequence, [LegBends.along(taut_path) for taut_path in taut_paths])
@@ -170,6 +174,6 @@ def rows_along(taut_path: TautPath) -> Floats:
 
 
 __all__ = [
-    "DETOUR", "HEADING", "KEPT", "RADIUS", "SIDE", "Bends", "LegBends", "X", "Y", "bend",
-    "bends_along", "bends_of_legs", "rows_along",
+    "DETOUR", "HEADING", "KEPT", "RADIUS", "SIDE", "Bends", "LegBends", "RowBends", "X", "Y",
+    "bend", "bends_along", "bends_of_legs", "rows_along",
 ]  # fmt: skip

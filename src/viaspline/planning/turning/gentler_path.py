@@ -89,7 +89,7 @@ def _on_lanes(problem: DrivenProblem, laid: SplinePath) -> Flags:
     """Which spans of a path lie straight on the lines that their legs are to keep to, (m,)."""
     found: Flags = np.zeros(len(laid.spans), np.bool_)
     required = problem.requirements.required
-    for leg, lane in enumerate(problem.kept_lanes):
+    for leg, lane in enumerate(problem.kept_lanes.lines):
         if lane is not None:
             left = lane.seen(laid.leg(leg))[..., 1]
             is_beside = np.abs(left).max(axis=1) < BESIDE_LANE * required

@@ -1,0 +1,246 @@
+"""The problem of a path that a robot is to drive: with what turns, clear of what, at what cost.
+
+Tested through ``planning/methods/test_ordered``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from viaspline.curve.bending import curvature_bound
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.alternatives.cleared_spline import ClearedSpline
+from viaspline.planning.alternatives.homotopy_classes import TautRow
+from viaspline.planning.alternatives.leg_search import LegSearch
+from viaspline.planning.checking.conflicts import is_clear
+from viaspline.planning.checking.driving_time import driving_time, leg_time
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.routing.asked_sides import AskedSides
+from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.routing.route_problem import on_the_line
+from viaspline.planning.routing.taut_path import TautPath
+from viaspline.planning.turning.bend_row import DETOUR, Bends, bends_along
+from viaspline.planning.turning.end_turns import soonest_end_turns
+from viaspline.planning.turning.laid_turns import through_turns
+from viaspline.planning.turning.repair import clear_turn_path
+from viaspline.planning.turning.short_turns import short_turn_path
+from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
+from viaspline.planning.turning.wide_turns import WideTurns
+from viaspline.world.world import World
+
+# Radii of turns for a long body without a turning circle, wide ones first, in required distances.
+FREE_TURN_RADII = (3.0, 1.5)
+LEAST_FREE_TURN_RADIUS = 0.5
+ROOMY_TURN_RADIUS = 2.0  # of turns where there is room, even if sharper ones are as fast
+MUCH_LOST = 1.07  # time of a leg, over that of a straight line
+LEAST_REQUIRED_M = 1e-3  # that these are of
+
+LayTurns = Callable[[Bends, World, Requirements], TurnPath | None]
+
+
+@dataclass(frozen=True)
+class TurningProblem(PathProblem):
+    """A path that is asked for, and the spline that there is for the disc in the body.
+
+    Attributes:
+        cleared: The spline.
+    """
+
+    cleared: ClearedSpline = field(kw_only=True)
+
+    @property
+    def turn_radius(self) -> float:
+        """The radius of the turning circle, or of what stands for one [m]."""
+        if self.requirements.turn_radius is not None:
+            return self.requirements.turn_radius
+        return LEAST_FREE_TURN_RADIUS * max(self.requirements.required, LEAST_REQUIRED_M)
+
+    @property
+    def least_radii(self) -> tuple[float, ...]:
+        """The least radii with which turns are laid [m], in the order in which they are tried."""
+        least = self.sharpest
+        if self.requirements.turn_radius is not None:
+            return (least,)
+        wide = tuple(part * self.requirements.required for part in FREE_TURN_RADII)
+        if self._takes_wide_turns:
+            return (*wide, least)
+        own = OVERSHOOT * self.requirements.outer_radius
+        return (own, least, *reversed(wide)) if own > least else (least, *reversed(wide))
+
+    @property
+    def sharpest(self) -> float:
+        """The least of them [m]."""
+        return OVERSHOOT * self.turn_radius
+
+    @property
+    def searched_radii(self) -> tuple[float, ...]:
+        """Those of them that are worth a longer search [m], in the same order."""
+        radii = self.least_radii
+        if len(radii) == 1:
+            return radii
+        return radii[1:] if self._takes_wide_turns else radii[:2]
+
+    @property
+    def _takes_wide_turns(self) -> bool:
+        """Whether wide turns come first: not where a disc is to have the shortest path."""
+        return self.requirements.objective.is_time or not self.requirements.is_free_disc
+
+    @cached_property
+    def legs(self) -> tuple[LegSearch, ...]:
+        """The legs of the sequence."""
+        return tuple(
+            LegSearch(self.sequence, k, self.world, self.requirements, self.router, sides)
+            for k, sides in enumerate(self.sides)
+        )
+
+    @cached_property
+    def sides(self) -> tuple[AskedSides, ...]:
+        """The sides that are asked for, with those that the spline was found to meet."""
+        return self.cleared.sides
+
+    @cached_property
+    def shortest_row(self) -> TautRow:
+        """The shortest taut path of every leg."""
+        return TautRow.of(_shortest(leg) for leg in self.legs)
+
+    @cached_property
+    def bends(self) -> Bends:
+        """What the shortest taut paths go round."""
+        return bends_along(self.sequence, self.shortest_row.taut_paths)
+
+    @property
+    def spots(self) -> set[int]:
+        """The via points at which the robot may turn on the spot."""
+        where = self.requirements.turns_on_spot
+        return {
+            k
+            for k, via in enumerate(self.sequence.vias)
+            if where == "vias" or (where == "stations" and via.dwell > 0.0)
+        }
+
+    def is_clear(self, spans: Floats) -> bool:
+        """Whether the body keeps clear on planar spans."""
+        return is_clear(self.world, spans, self.requirements)
+
+    def keeps_sides(self, spline_path: SplinePath) -> bool:
+        """Whether a path passes everything on the sides that are asked for."""
+        return not any(len(sides.wrong(spline_path.leg(k))) for k, sides in enumerate(self.sides))
+
+    def passed_wrong(self, turn_path: TurnPath) -> tuple[tuple[int, Floats], ...]:
+        """What a turn path passes on the wrong side: the leg, and the middle of it [m], (2,)."""
+        spline_path = through_turns(self.sequence, [turn_path])
+        return tuple(
+            (k, barrier[:2])
+            for k, sides in enumerate(self.sides)
+            for barrier in sides.barriers[np.isin(sides.indices, sides.wrong(spline_path.leg(k)))]
+        )
+
+    def is_drivable(self, spans: Floats) -> bool:
+        """Whether the body keeps clear, and no turn is sharper than the turning circle."""
+        limit = self.requirements.turn_radius
+        if limit is not None and not self._curvature_bound(spans) * limit <= 1.0:
+            return False
+        return self.is_clear(spans)
+
+    def is_round(self, spans: Floats) -> bool:
+        """Whether no turn is sharper than the circle round the body, about the reference point."""
+        return self._curvature_bound(spans) * self.requirements.outer_radius <= 1.0
+
+    def _curvature_bound(self, spans: Floats) -> float:
+        """What the curvature is nowhere above [1/m]."""
+        flat = np.ascontiguousarray(spans[:, :, :2])
+        is_closed = self.sequence.closed and np.array_equal(flat[0, 0], flat[-1, 3])
+        ground = PiecewiseCubic(flat, closed=is_closed)  # with the seam: no turn there either
+        return curvature_bound(ground)[0]
+
+    def cost(self, spline_path: SplinePath) -> float:
+        """What a path is chosen by [s or m]."""
+        objective = self.requirements.objective
+        if not objective.is_time:
+            return spline_path.length
+        rests = spline_path.rests(self.sequence)
+        return driving_time(spline_path.spans, objective.pace, rests)
+
+    def loses_much(self, spline_path: SplinePath, leg: int) -> bool:
+        """Whether a leg takes much longer than a straight line as long as its shortest taut path.
+
+        So much that ways on other sides are worth the search among many obstacles.
+        """
+        if not self.requirements.objective.is_time:
+            return False
+        pace, stands = self.requirements.objective.pace, self.legs[leg].stands
+        line = np.zeros((1, 4, 2))
+        line[0, :, 0] = np.linspace(0.0, self.shortest_row.taut_paths[leg].length, 4)
+        least = leg_time(line, pace, stands)
+        return leg_time(spline_path.leg(leg), pace, stands) > MUCH_LOST * least
+
+    def ideal_time(self, sequence: ViaSequence, bends: Bends) -> float:
+        """The driven time of turns with nothing else beside them; 0 where there are none [s]."""
+        ideal = self.wide_turns(self.sharpest).ideal(bends, self.requirements)
+        if ideal is None:
+            return 0.0
+        at_vias = ideal.bends.vias != DETOUR
+        joints = ideal.begins[: len(at_vias)][at_vias]
+        rests = sequence.rests(joints, len(ideal.spans))
+        return driving_time(ideal.spans, self.requirements.objective.pace, rests)
+
+    def wide_turns(self, rho: float) -> WideTurns:
+        """The turns of a good driver, of at least a radius [m]."""
+        pace = self.requirements.objective.pace
+        return WideTurns(pace, rho, self.sharpest, self.roomy)
+
+    @property
+    def roomy(self) -> float:
+        """The radius of turns where there is room, even if sharper ones are as fast [m]."""
+        return ROOMY_TURN_RADIUS * self.requirements.required
+
+    @property
+    def rests_at_ends(self) -> tuple[bool, bool]:
+        """Whether the robot stands where the path begins, and where it ends."""
+        sequence = self.sequence
+        if sequence.closed:
+            return (False, False)
+        return sequence.stands(0), sequence.stands(len(sequence.vias) - 1)
+
+    def turns_round(
+        self, bends: Bends, rho: float, rests: tuple[bool, bool] = (False, False)
+    ) -> TurnPath | None:
+        """Turns of at least a radius [m]: no wider ones where it is the length that counts.
+
+        Args:
+            bends: The row.
+            rho: The radius [m].
+            rests: Whether the robot stands where the row begins, and where it ends.
+        """
+        if not self.requirements.objective.is_time:
+            lay = short_turn_path if self.requirements.is_free_disc else clear_turn_path
+            return lay(bends.turning(rho), self.world, self.requirements)
+        turns = self.wide_turns(rho)
+        return soonest_end_turns(turns, bends, self.world, self.requirements, rests)
+
+    def leg_on_sides(self, leg: int, bends: Bends, lay: LayTurns) -> TurnPath | None:
+        """The turn path of one leg, if it keeps clear and to the sides that are asked for.
+
+        Args:
+            leg: The leg.
+            bends: Its bends.
+            lay: Lays a clear turn path round bends, if it can.
+        """
+        turn_path = lay(bends, self.world, self.requirements)
+        if turn_path is None or self.sides[leg].crossed(turn_path.spans).any():
+            return None
+        return turn_path
+
+
+def _shortest(leg: LegSearch) -> TautPath:
+    active = on_the_line(leg.world, *leg.ends, leg.requirements.required)
+    taut_path = leg.shortest_allowed(active)[0].value
+    assert taut_path is not None  # the spline was led along one
+    return taut_path
