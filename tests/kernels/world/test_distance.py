@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.sparse.csgraph import connected_components
 
 from viaspline.kernels.clearance.disc import STILL, conflicts, tightest
 from viaspline.kernels.curve.measure import length_and_curvature
@@ -193,6 +194,22 @@ def test_labels_are_the_smallest_index_of_a_group() -> None:
     np.testing.assert_array_equal(group_labels(packed, 1.5), [0, 1, 1, 1])
     np.testing.assert_array_equal(group_labels(packed, 0.4), [0, 1, 2, 3])
     np.testing.assert_array_equal(group_labels(packed, 9.0), [0, 0, 0, 0])
+
+
+def test_the_groups_of_a_crowd_are_those_of_all_its_pairs() -> None:
+    rng = np.random.default_rng(3)
+    middles, radii = rng.uniform(0, 10, (300, 2)), rng.uniform(0, 0.2, 300)
+    packed = world(*(disc(*at, r) for at, r in zip(middles.tolist(), radii.tolist(), strict=True)))
+    gaps = np.hypot(*np.moveaxis(middles[:, None] - middles, -1, 0)) - radii[:, None] - radii
+    counts = []
+    for width in (0.05, 0.1, 0.3, 0.6):
+        expected = connected_components(gaps < width, directed=False)[1]
+        labels = group_labels(packed, width)
+        smallest = [np.flatnonzero(expected == group)[0] for group in expected]
+        np.testing.assert_array_equal(labels, smallest)
+        counts.append(np.unique(labels).size)
+    assert counts == sorted(counts, reverse=True)
+    assert counts[0] > 100 > 10 > counts[-1]
 
 
 # Curves

@@ -24,32 +24,68 @@ def _root(parent: Ints, i: int) -> int:
     return i
 
 
+@inner
+def _next_unmet(ahead: Ints, node: int) -> int:
+    """The first node from this one on that is the leaf of a ring of no group yet."""
+    while ahead[node] != node:
+        ahead[node] = ahead[ahead[node]]
+        node = ahead[node]
+    return node
+
+
+@inner
+def _meet(
+    world: PackedWorld, ring: int, width: float, leaf_of: Ints, ahead: Ints, met: Ints, count: int
+) -> int:
+    """Put the rings of no group yet that are near to a ring at the end of those that were met.
+
+    Returns:
+        How many have been met then.
+    """
+    box = world.boxes[leaf_of[ring]]
+    node = 0
+    while node < world.leaf.size:
+        if _next_unmet(ahead, node) >= world.skip[node] or (
+            box_gap(world.boxes, node, box[0], box[1], box[2], box[3]) >= width
+        ):
+            node = world.skip[node]
+            continue
+        other = world.leaf[node]
+        if other >= 0 and rings_gap(world, world.slot[ring], world.slot[other], width) < width:
+            ahead[node] = node + 1
+            met[count] = other
+            count += 1
+        node += 1
+    return count
+
+
 @kernel
 def _labels(world: PackedWorld, width: float) -> Ints:
-    """Labels of rounded rings; every grid is by itself."""
-    count = world.slot.size
-    parent = np.arange(count)
-    for leaf in range(world.leaf.size):
-        i = world.leaf[leaf]
+    """Labels of rounded rings; every grid is by itself.
+
+    A group grows from its smallest index on. A ring that it has met isn't looked at again, nor is a
+    node all of whose rings were met: so a crowd costs about what its rings cost, not its pairs.
+    """
+    labels = np.arange(world.slot.size)
+    leaf_of, met = np.empty_like(labels), np.empty_like(labels)
+    ahead = np.arange(world.leaf.size + 1)
+    for node in range(world.leaf.size):
+        i = world.leaf[node]
+        if i >= 0:
+            leaf_of[i] = node
         if i < 0 or not is_ring(world, i):
-            continue
-        box = world.boxes[leaf]
-        node = 0
-        while node < world.leaf.size:
-            if box_gap(world.boxes, node, box[0], box[1], box[2], box[3]) >= width:
-                node = world.skip[node]
-                continue
-            j = world.leaf[node]
-            node += 1
-            if j <= i or not is_ring(world, j):
-                continue
-            first = _root(parent, i)
-            second = _root(parent, j)
-            if first != second and rings_gap(world, world.slot[i], world.slot[j], width) < width:
-                parent[max(first, second)] = min(first, second)
-    for i in range(count):
-        parent[i] = _root(parent, i)
-    return parent
+            ahead[node] = node + 1
+    for i in range(labels.size):
+        if ahead[leaf_of[i]] != leaf_of[i]:
+            continue  # a grid, or it is of a group
+        ahead[leaf_of[i]] += 1
+        met[0] = i
+        count, looked = 1, 0
+        while looked < count:
+            labels[met[looked]] = i
+            count = _meet(world, met[looked], width, leaf_of, ahead, met, count)
+            looked += 1
+    return labels
 
 
 @inner
