@@ -6,6 +6,7 @@ from typing import Final
 
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.report.sight_remarks import sight_remarks
 
 FOLLOWED_EXACTLY: Final = (
     "the robot has no drive: it is taken to follow its path exactly, and nothing is kept for what "
@@ -62,4 +63,4 @@ def remarks(mission: Mission) -> list[str]:
         from viaspline.machine.machine_limits import limits_of
 
         found += limits_of(robot).conflicts(robot.turn_radius)
-    return found
+    return [*found, *sight_remarks(mission)]

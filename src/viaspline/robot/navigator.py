@@ -274,8 +274,14 @@ class Navigator:
 
     @property
     def quiet_until(self) -> float:
-        """Until then a robot that follows exactly and sees nothing new may leave out steps [s]."""
+        """Until then a robot that follows exactly and sees nothing new may leave out steps [s].
+
+        Under passive safety there is no such time: with every look its law may go on for longer.
+        """
         state, end = self._state, self.trajectory.end_time
+        things = self.mission.robot.moving
+        if things is not None and things.safety == "passive":
+            return state.progress.time
         renewed = renewed_at(self._task, state.knowledge, state.schedule)
         return min(renewed, grows_after(state.schedule), end)
 

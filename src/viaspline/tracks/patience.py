@@ -34,4 +34,7 @@ FROZEN = (
     f"for {MAX_FROZEN_S:g} s no step of it was proven safe from what moves there, or may come out "
     "of what it doesn't see; moving.max_speed_mps says how fast that may be"
 )
-"""and says why."""
+"""and says why,"""
+
+UNSEEING = "; it has no robot.sensor, and so sees nowhere that nothing comes"
+"""and this as well where it has no sensor."""

@@ -12,6 +12,7 @@ from viaspline.robot.yielding import held_up
 
 PATIENCE_S = 20.0
 GOAL = (15.0, 0.0)
+YARD = (-1.0, -19.0, 20.0, 19.0)
 PASSIVE = {"max_speed_mps": 2, "safety": "passive"}
 
 
@@ -30,12 +31,13 @@ def mission(
     *unseen: dict[str, Any],
     known: tuple[dict[str, Any], ...] = (),
     range_m: float = 10,
+    bounds: tuple[float, ...] | None = None,
     **more: Any,
 ) -> vs.Mission:
     robot = {"radius_m": 0.25, "max_accel_mps2": 1, "sensor": {"range_m": range_m}, **more}
     return vs.Mission.model_validate(
         {
-            "world": {"known": known, "unseen": unseen},
+            "world": {"known": known, "unseen": unseen, "bounds": bounds},
             "robot": robot,
             "route": {"start": (0, 0), "goal": GOAL},
         }
@@ -82,14 +84,36 @@ def test_one_whose_goal_is_taken_says_by_what_and_ends(
 def test_a_gap_that_has_closed_is_told_of_with_what_stands_in_it() -> None:
     pair = coming("a", (0, 12, 3), (9, 12, 0.7)), coming("b", (0, 12, -3), (9, 12, -0.7))
     walls = wall("w1", 0.8, 20), wall("w2", -20, -0.8)
-    run = vs.simulate(mission(*pair, known=walls, range_m=6, moving=PASSIVE), step=0.2)
+    asked = mission(*pair, known=walls, range_m=6, bounds=YARD, moving=PASSIVE)
+    run = vs.simulate(asked, step=0.2)
     assert run.reason is not None
     assert "'a', which has stood at (12.00, 0.70)" in run.reason
     assert "'b', which has stood at (12.00, -0.70)" in run.reason
-    assert "robot.clearance_m" in run.reason
+    assert "0.56 m wide, at (12.00, 0.00)" in run.reason
+    assert "robot.clearance_m has to be less than 0.029 to fit through" in run.reason
     assert run.duration < PATIENCE_S + 20.0
     assert run.encounters is not None
     assert [one for one in run.encounters.contacts if one.robot_speed > 0.0] == []
+
+
+@pytest.mark.parametrize(
+    ("beside", "helps"),
+    [
+        (0.6, "is 0.36 m wide, at (12.00, 0.00), and the robot 0.50 m: move it away"),
+        (0.4, "no way round it is left: move it away"),
+    ],
+    ids=["too narrow", "shut"],
+)
+def test_of_a_gap_that_the_body_does_not_fit_through_no_clearance_is_advised(
+    beside: float, helps: str
+) -> None:
+    """The discs are told of with an error of some centimetres, and that is taken off the gap."""
+    pair = coming("a", (0, 12, 3), (9, 12, beside)), coming("b", (0, 12, -3), (9, 12, -beside))
+    walls = wall("w1", 0.8, 20), wall("w2", -20, -0.8)
+    run = vs.simulate(mission(*pair, known=walls, range_m=6, bounds=YARD), step=0.5)
+    assert run.reason is not None
+    assert run.reason.endswith(helps)
+    assert "clearance" not in run.reason
 
 
 @pytest.mark.parametrize("safety", ["passive", "none"])

@@ -14,6 +14,7 @@ from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
+from viaspline.robot.yielding.closed_gap import help_past
 
 MAX_PLACES = 500
 """Places of the path that are looked at for what is on it."""
@@ -31,6 +32,7 @@ class _InTheWay(NamedTuple):
         at: Where it is [m].
         since: Since when it stands there [s]; None: it moves.
         on: The point of the route that it stands on; None if it stands on none.
+        index: Which of all that moves it is.
     """
 
     along: int
@@ -38,6 +40,7 @@ class _InTheWay(NamedTuple):
     at: tuple[float, float]
     since: float | None
     on: str | None
+    index: int
 
 
 def held_up_by(
@@ -62,8 +65,8 @@ def held_up_by(
     if any(one.on is not None for one in met):
         helps = "move it off, or leave that point out of the route"
     elif any(one.since is not None for one in met):
-        kept = task.kept_to_moving - task.requirements.outer_radius
-        helps = f"move it away, or keep less than {kept:g} m (robot.clearance_m)"
+        standing = tuple(one.index for one in met if one.since is not None)
+        helps = help_past(task, progress, knowledge, schedule, standing)
     else:
         helps = "another way, or another time, would help"
     sight = _sight_in_words(task)
@@ -111,4 +114,4 @@ def _in_the_way(
             via.name for via in points if alone.distance(via.at[:2], now)[0] < task.kept_to_moving
         ]
         x, y, _ = frames[i].tolist()
-        yield _InTheWay(int(near[0]), moving.name(i), (x, y), since, on[0] if on else None)
+        yield _InTheWay(int(near[0]), moving.name(i), (x, y), since, on[0] if on else None, i)

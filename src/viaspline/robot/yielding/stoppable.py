@@ -27,7 +27,7 @@ from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
 from viaspline.robot.yielding.held_up import rests
 from viaspline.tracks.foresight import Foresight
-from viaspline.tracks.patience import FROZEN, MAX_FROZEN_S
+from viaspline.tracks.patience import FROZEN, MAX_FROZEN_S, UNSEEING
 from viaspline.trajectory.passive_safety import (
     SAME_PLACE_M,
     PassivePremises,
@@ -145,14 +145,16 @@ def stoppable(
         law = replace(law, over_jerk_until=float(law.distances[-1]))
     here = progress.distance + SAME_PLACE_M
     is_frozen = speed == 0.0 and law.distances[-1] <= here < upper.distances[-1]
-    return _patient(replace(meant, trajectory=law), now, is_frozen=is_frozen)
+    since = min(meant.frozen_since, now) if is_frozen else math.inf
+    return _patient(robot, replace(meant, trajectory=law, frozen_since=since), now)
 
 
-def _patient(schedule: Schedule, now: float, *, is_frozen: bool) -> Schedule:
+def _patient(robot: RobotSpec, schedule: Schedule, now: float) -> Schedule:
     """The schedule of a robot that doesn't stand for ever where nothing is proven to be safe."""
-    since = min(schedule.frozen_since, now) if is_frozen else math.inf
-    kept = replace(schedule, frozen_since=since)
-    return replace(kept, giving_up=FROZEN, pending=None) if now - since >= MAX_FROZEN_S else kept
+    if now - schedule.frozen_since < MAX_FROZEN_S:
+        return schedule
+    reason = FROZEN if robot.sensor is not None else FROZEN + UNSEEING
+    return replace(schedule, giving_up=reason, pending=None)
 
 
 def kept_to_path(
