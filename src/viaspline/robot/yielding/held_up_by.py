@@ -32,7 +32,7 @@ class _InTheWay(NamedTuple):
         at: Where it is [m].
         since: Since when it stands there [s]; None: it moves.
         on: The point of the route that it stands on; None if it stands on none.
-        index: Which of all that moves it is.
+        which: Of all that moves, as in ``knowledge.moving``.
     """
 
     along: int
@@ -40,7 +40,7 @@ class _InTheWay(NamedTuple):
     at: tuple[float, float]
     since: float | None
     on: str | None
-    index: int
+    which: int
 
 
 def held_up_by(
@@ -65,7 +65,7 @@ def held_up_by(
     if any(one.on is not None for one in met):
         helps = "move it off, or leave that point out of the route"
     elif any(one.since is not None for one in met):
-        standing = tuple(one.index for one in met if one.since is not None)
+        standing = tuple(one.which for one in met if one.since is not None)
         helps = help_past(task, progress, knowledge, schedule, standing)
     else:
         helps = "another way, or another time, would help"
