@@ -27,7 +27,7 @@ import viaspline as vs
 from viaspline.fleet.courses import courses_of
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
-from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_paths
+from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_order
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.timing.rides import rides_of
@@ -91,20 +91,23 @@ def members_of(world, robot, ends) -> list[FleetMember]:
 
 def led(members, alone):
     """Robots led over a lattice: their paths, and their laws."""
+    order = lattice_order(alone, 0.0)
+    if isinstance(order, NoLatticeOrder):
+        return None
     best = None
     for shape in SHAPES:
-        paths = lattice_paths(alone, 0.0, shape=shape)
-        if isinstance(paths, NoLatticeOrder):
-            return None
+        paths = order.paths(shape)
         courses = courses_of(paths.plans, 0.0)
         crossings = crossings_of(courses)
         rides = rides_of(members, list(paths.plans.values()), courses)
         timing = time_in_order(courses, crossings, rides, list(paths.steps.values()))
-        if best is None or len(timing.blocked) < len(best[1].blocked):
-            best = courses, timing
-        if not timing.blocked:
+        arrive = timing.laws.packed.arrive[courses.packed.first[1:] - 1]
+        rank = len(timing.blocked), arrive.sum()
+        if best is None or rank < best[0]:
+            best = rank, courses, timing
+        if shape is SHAPES[0] and not timing.blocked:
             break
-    return best
+    return best[1:]
 
 
 def main(folder: Path, cases) -> None:

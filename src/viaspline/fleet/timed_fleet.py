@@ -1,7 +1,4 @@
-"""Robots with paths and laws: by priority, or by the order of a lattice.
-
-Tested through ``fleet/test_plan_fleet``.
-"""
+"""Robots with paths and laws: by priority, or by the order of a lattice."""
 
 from __future__ import annotations
 
@@ -15,7 +12,7 @@ from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_of
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_paths
+from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_order
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.patrols.driven_laps import write_law
@@ -304,6 +301,14 @@ class TimedFleet:
             return self  # somebody would arrive after the laps that are laid out
         return replace(found, patrols=replace(self.patrols, repeats_from=last))
 
+    @property
+    def rank(self) -> tuple[int, float]:
+        """How many have no law, and the sum of the arrivals of the others [s]: less is better."""
+        laws, first = self.timing.laws.packed, self.ways.courses.packed.first
+        is_timed = laws.is_timed.copy()
+        is_timed[list(self.timing.blocked)] = False
+        return len(self.timing.blocked), float(laws.arrive[first[1:] - 1][is_timed].sum())
+
     def last_arrival(self) -> float:
         """When the last robot that ends has arrived [s]; minus infinity if none is under way."""
         laws, first = self.timing.laws.packed, self.ways.courses.packed.first
@@ -321,17 +326,19 @@ def on_lattice(ways: FleetWays, separation: float) -> TimedFleet | NoLatticeOrde
     """
     plans = dict(zip(ways.courses.names, ways.planar, strict=True))
     leaving = [one.name for one in ways.members if one.rest == "leave"]
+    order = lattice_order(plans, separation, leaving=leaving)
+    if isinstance(order, NoLatticeOrder):
+        return order
     best: TimedFleet | None = None
     for shape in SHAPES:
-        laid = lattice_paths(plans, separation, leaving=leaving, shape=shape)
-        if isinstance(laid, NoLatticeOrder):
-            return laid
+        laid = order.paths(shape)
         led = ways.along(laid.plans, separation)
         steps = list(laid.steps.values())
         timing = time_in_order(led.courses, led.crossings, led.rides, steps)
-        if best is None or len(timing.blocked) < len(best.blocked):
-            best = TimedFleet(led, timing)
-        if not best.blocked:
+        found = TimedFleet(led, timing)
+        if best is None or found.rank < best.rank:
+            best = found
+        if shape is SHAPES[0] and not best.blocked:
             break
     assert best is not None  # there are shapes
     return best

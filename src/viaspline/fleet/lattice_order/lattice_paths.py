@@ -14,11 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.curve.path import Path
-from viaspline.fleet.lattice_order.cell_lattice import lattice_over
+from viaspline.fleet.lattice_order.cell_lattice import CellLattice, lattice_over
 from viaspline.fleet.lattice_order.lattice_motions import lattice_motions
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.rounded_path import rounded_lines
-from viaspline.fleet.lattice_order.solve_lattice import WORK, solve_lattice
+from viaspline.fleet.lattice_order.solve_lattice import WORK, LatticePlan, solve_lattice
 from viaspline.handed_in import number_from
 from viaspline.kernels.arrays import Floats, Steps
 from viaspline.machine.machine_limits import limits_of
@@ -50,9 +50,11 @@ class LatticeShape:
     rounding: float
 
 
-SHAPES = (LatticeShape(3, 0.3), LatticeShape(0, 0.3), LatticeShape(0, 0.05))
-"""The quickest first: in dense fleets straighter paths come near each other where the lattice has
-no order for them."""
+SHAPES = (
+    LatticeShape(3, 0.3), LatticeShape(3, 0.05), LatticeShape(0, 0.3), LatticeShape(0, 0.05)
+)  # fmt: skip
+"""The quickest first. In dense fleets straighter and rounder paths come near each other where the
+lattice has no order for them: then the best of the others is taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +85,54 @@ class LatticePaths:
 
     plans: dict[str, Plan]
     steps: dict[str, PassingSteps]
+
+
+@dataclass(frozen=True, eq=False)
+class LatticeOrder:
+    """Who is in which cell of a lattice when: the order in which robots pass each other.
+
+    Attributes:
+        plans: As the robots would drive if they were alone, by name.
+        lattice: Its cells.
+        solved: Who is in which of them when.
+        reach: How far each robot keeps others away on its part [m], (n,).
+        kept: What the centre of each keeps of the world [m], (n,).
+        soonest: The step at which each may set out, (n,).
+    """
+
+    plans: dict[str, Plan]
+    lattice: CellLattice
+    solved: LatticePlan
+    reach: Floats
+    kept: Floats
+    soonest: Steps
+
+    def paths(self, shape: LatticeShape) -> LatticePaths:
+        """The paths that are driven in this order.
+
+        Args:
+            shape: How near they keep to the cells.
+        """
+        many, cell = list(self.plans.values()), self.lattice.cell
+        world, lines = many[0].world, [_line(plan) for plan in many]
+        motions = lattice_motions(
+            self.solved, self.lattice, world, lines, self.reach, self.kept, self.soonest,
+            shape.rounds,
+        )  # fmt: skip
+        laid: dict[str, Plan] = {}
+        steps: dict[str, PassingSteps] = {}
+        for robot, (name, plan) in enumerate(self.plans.items()):
+            begin = float(motions.sets_out[robot])
+            if begin >= 0.0:
+                length = plan.path.length
+                laid[name] = plan
+                steps[name] = PassingSteps(
+                    np.array([0.0, 0.0, length]), np.array([0.0, begin, begin + length / cell])
+                )
+                continue
+            places, when = motions.vertices(robot)
+            laid[name], steps[name] = _laid(plan, places, when, world, shape.rounding * cell)
+        return LatticePaths(laid, steps)
 
 
 def lattice_paths(
@@ -119,6 +169,24 @@ def lattice_paths(
     separation = number_from("separation", separation)
     if not plans:
         return LatticePaths({}, {})
+    order = lattice_order(plans, separation, work, leaving)
+    return order if isinstance(order, NoLatticeOrder) else order.paths(shape)
+
+
+def lattice_order(
+    plans: Mapping[str, Plan],
+    separation: float,
+    work: int = WORK,
+    leaving: Collection[str] = (),
+) -> LatticeOrder | NoLatticeOrder:
+    """Search for an order in which robots can pass each other on a lattice.
+
+    Args:
+        plans: As for ``lattice_paths``, of one robot at least.
+        separation: Free space between any two bodies [m].
+        work: States and choices of each search on the lattice, at most.
+        leaving: The robots that leave the world when they have arrived.
+    """
     wrong = _unfit(plans)
     if wrong is not None:
         return wrong
@@ -128,9 +196,8 @@ def lattice_paths(
         [one.mission.robot.outer_radius + one.tracking_error + 0.5 * separation for one in many]
     )
     kept = np.array([Requirements.of(one.mission, one.tracking_error).around for one in many])
-    world = many[0].world
     apart = 2.0 * float(reach.max())
-    lattice = lattice_over(world, starts, goals, apart, float(kept.max()))
+    lattice = lattice_over(many[0].world, starts, goals, apart, float(kept.max()))
     if isinstance(lattice, NoLatticeOrder):
         return lattice
     soonest = _departures(many, lattice.cell)
@@ -140,22 +207,7 @@ def lattice_paths(
     )
     if isinstance(solved, NoLatticeOrder):
         return solved
-    lines = [_line(plan) for plan in many]
-    motions = lattice_motions(solved, lattice, world, lines, reach, kept, soonest, shape.rounds)
-    laid: dict[str, Plan] = {}
-    steps: dict[str, PassingSteps] = {}
-    for robot, (name, plan) in enumerate(plans.items()):
-        begin = float(motions.sets_out[robot])
-        if begin >= 0.0:
-            length = plan.path.length
-            laid[name] = plan
-            steps[name] = PassingSteps(
-                np.array([0.0, 0.0, length]), np.array([0.0, begin, begin + length / lattice.cell])
-            )
-            continue
-        places, when = motions.vertices(robot)
-        laid[name], steps[name] = _laid(plan, places, when, world, shape.rounding * lattice.cell)
-    return LatticePaths(laid, steps)
+    return LatticeOrder(dict(plans), lattice, solved, reach, kept, soonest)
 
 
 def _departures(plans: Sequence[Plan], cell: float) -> Steps:
