@@ -197,6 +197,8 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "advise_tension tensions": lambda junk: vs.advise_tension(MISSION, junk),
     "advise_tension world": lambda junk: vs.advise_tension(MISSION, world=junk),
     "Trajectory": lambda junk: MADE.law.state_at(junk),
+    "Trajectory.speed_at": lambda junk: MADE.law.speed_at(junk),
+    "Trajectory.time_at": lambda junk: MADE.law.time_at(junk),
     "MovingObstacles": vs.MovingObstacles,
     "MovingObstacles since": lambda junk: vs.MovingObstacles([CART], since=junk),
     "MovingObstacles distance": lambda junk: MADE.moving.distance([(0, 0)], times=junk),

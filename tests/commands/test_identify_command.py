@@ -46,7 +46,7 @@ def test_what_is_simulated_is_identified_and_can_be_pasted(tmp_path: Path) -> No
 def test_commands_are_written_with_the_ground_that_they_take(tmp_path: Path) -> None:
     done = run("--drive", tmp_path / "c.csv", "--max-speed", 2, "--period", 0.1)
     assert done.exit_code == 0, done.output
-    assert "m ahead" in done.output
+    assert "m ahead, 0.0 m behind" in done.output
     first, *rows = (tmp_path / "c.csv").read_text().splitlines()
     assert first == "time_s,speed_command_mps,yaw_rate_command_radps"
     assert max(float(row.split(",")[1]) for row in rows) == 2.0

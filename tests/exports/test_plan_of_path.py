@@ -153,6 +153,26 @@ def test_a_flight_takes_off_flies_and_lands(tmp_path: Path) -> None:
     assert back.route.land is not None
 
 
+@pytest.mark.parametrize("ending", [".plan", ".waypoints"])
+def test_take_off_and_landing_are_one_item_each(tmp_path: Path, ending: str) -> None:
+    asked = {
+        "world": {"ground": {"flat_m": 400}},
+        "robot": {"radius_m": 0.5, "clearance_m": 1, "max_speed_mps": 6, "max_jerk_mps3": 2},
+        "route": {"start": [0, 0], "takeoff": {"to_agl_m": 20}, "land": {"at": [60, 0]},
+                  "via": [{"at": [30, 5], "agl_m": 30}]},
+    }  # fmt: skip
+    flown, file = plan(Mission.model_validate(asked)), tmp_path / f"x{ending}"
+    done = export(flown, file, origin=ORIGIN, spacing=4.0)  # cuts the upright legs, too
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MissionWarning)
+        back = load(file, ground={"flat_m": 400})
+    assert isinstance(back, Mission)
+    places = np.array([point.at for point in back.route.via])
+    assert np.linalg.norm(np.diff(places, axis=0), axis=1).min() > 0.5
+    assert done.points > len(places) + 8
+    assert export(flown, file, origin=ORIGIN).points < done.points - 8
+
+
 def test_what_a_flight_passes_over_is_no_fence_and_is_named(tmp_path: Path) -> None:
     known = [
         {"name": "hall", "circle": {"center": [50, 0], "radius": 5}, "height_m": [0, 10]},

@@ -206,6 +206,19 @@ def test_whatever_is_written_reads_back_equal(tmp_path: Path, data: dict[str, An
     assert yaml_text(load(tmp_path / "m.yaml")) == yaml_text(mission)
 
 
+def test_a_part_with_nothing_but_default_values_is_still_there(tmp_path: Path) -> None:
+    mission = Mission.model_validate({
+        "world": {"altitude": {"above": "home"}},
+        "robot": {"moving": {}, "sensor": {"range_m": 9}},
+        "route": {"start": [0, 0, 5], "goal": [9, 0, 5]},
+    })  # fmt: skip
+    write_yaml(mission, tmp_path / "m.yaml")
+    back = load(tmp_path / "m.yaml")
+    assert isinstance(back, Mission)
+    assert back.world.altitude == mission.world.altitude
+    assert back == mission
+
+
 def test_whole_numbers_are_written_as_numbers(tmp_path: Path) -> None:
     mission = Mission.model_validate(
         {

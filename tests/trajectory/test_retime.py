@@ -56,6 +56,13 @@ def test_a_station_is_a_stop_with_its_dwell() -> None:
     assert acceleration == pytest.approx([0, 0, 1])
 
 
+@pytest.mark.parametrize("jerk", [None, 0.5])
+def test_a_law_knows_nothing_of_no_place_and_of_no_instant(jerk: float | None) -> None:
+    law = retime(line(30.0), Limits(max_speed=2.0, max_accel=1.0, max_jerk=jerk))
+    assert np.isnan([law.time_at(np.nan), law.speed_at(np.nan), *law.state_at(np.nan)[:2]]).all()
+    assert np.isnan(law.time_at([10.0, np.nan])).tolist() == [False, True]
+
+
 def test_a_station_may_be_the_start_and_the_goal() -> None:
     stations = [Station(0.0, 3.0), Station(30.0, 4.0)]
     law = retime(line(30.0), LIMITS, stations)

@@ -29,7 +29,7 @@ CHORD_ERRORS: Final = (0.01, 0.25)
 """A tenth of the clearance is how far lines may be from the path, within these [m]."""
 
 MOST_POINTS: Final = 50_000
-_SAME_PLACE: Final = 1e-9  # in parameters
+_SAME_PLACE: Final = 1e-9  # in parameters, and in metres along the path
 
 
 def cut_plan(
@@ -45,8 +45,11 @@ def cut_plan(
         if not kind.is_driven:
             return True
         first, last = np.asarray(path.distance([a, b])).tolist()
+        if last <= airborne[0] + _SAME_PLACE or first >= airborne[1] - _SAME_PLACE:
+            return True  # a vehicle takes off and lands with its own speeds
         return last - first < 20.0 * error or settable.may_be_one(first, last)
 
+    airborne = plan.airborne if isinstance(plan, SpatialPlan) else (0.0, path.length)
     known: dict[bytes, LineProof] = {}
     prover, fixed = LineProver.of(plan), _fixed(plan)
     breaks = _breaks(path, fixed, spacing)

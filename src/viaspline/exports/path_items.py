@@ -25,9 +25,10 @@ KEEP_THROTTLE = -1.0
 def path_itinerary(table: PathTable, fences: tuple[FenceArea, ...]) -> Itinerary:
     """Home and the items of a path.
 
-    Way points carry dwells as hold times, the acceptance radius, and headings where the mission
-    asks for others than along the path. Before each line whose speed is another one than before
-    stands a change of the speed over ground. Heights are above home.
+    Take-off and landing are one item each. Way points carry dwells as hold times, the acceptance
+    radius, and headings where the mission asks for others than along the path. Before each line
+    whose speed is another one than before stands a change of the speed over ground. Heights are
+    above home.
 
     Args:
         table: The path.
@@ -55,9 +56,14 @@ _Rest = tuple[int, int, tuple[float, float, float, float], float, float, float, 
 
 def _items(table: PathTable) -> Iterator[_Rest]:
     speed = math.nan
-    first, last = table.airborne or (0, len(table.points) - 1)
+    end = len(table.points) - 1
+    first, last = table.airborne or (0, end)
     route = table.mission.route
     for k in range(len(table.points)):
+        if (route.takeoff is not None and 0 < k < first) or (
+            route.land is not None and last < k < end
+        ):
+            continue  # on an upright leg, which is one item whatever corners it has
         if k > 0 and _level_share(table, k - 1) > 1e-6:
             wanted = _set_speed(table, k - 1)
             if wanted != speed:

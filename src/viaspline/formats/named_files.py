@@ -35,7 +35,8 @@ def world_data(world: WorldSpec, data: Mapping[str, Any], folder: Path) -> dict[
     if world.ground is not None and world.ground.terrain is not None:
         name = _named(world.ground.terrain, "the ground is a terrain", folder)
         written["ground"] = {**written["ground"], "terrain": name}
-    return {key: value for key, value in written.items() if value}
+    # A mapping that is empty stands for one with nothing but default values.
+    return {key: value for key, value in written.items() if value or value == {}}
 
 
 def _obstacle(plain: Mapping[str, Any], obstacle: Obstacle, folder: Path) -> Mapping[str, Any]:

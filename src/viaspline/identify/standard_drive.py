@@ -69,7 +69,7 @@ def room_of(commands: Floats) -> tuple[float, float, float, float]:
     x = np.cumsum(commands[:, 1] * steps * np.cos(heading))
     y = np.cumsum(commands[:, 1] * steps * np.sin(heading))
     ahead, behind, left, right = (float(far) for far in (x.max(), -x.min(), y.max(), -y.min()))
-    return max(ahead, 0.0), max(behind, 0.0), max(left, 0.0), max(right, 0.0)
+    return max(0.0, ahead), max(0.0, behind), max(0.0, left), max(0.0, right)  # and no -0.0
 
 
 def commands_csv(commands: Floats) -> str:

@@ -252,7 +252,7 @@ class Trajectory(ShownValue, ComparedByValue):
             distance = _within(
                 self.distances[i] + states[0], self.distances[i], self.distances[i + 1]
             )
-            speed = np.where(t < self.times[-1], np.maximum(states[1], 0.0), self.speeds[-1])
+            speed = np.where(t >= self.times[-1], self.speeds[-1], np.maximum(states[1], 0.0))
             return distance[()], speed[()], (states[2] * moving)[()]
         first, acceleration = self.speeds[i], self.accelerations[i]
         distance = self.distances[i] + (first + 0.5 * acceleration * late) * late
@@ -260,7 +260,7 @@ class Trajectory(ShownValue, ComparedByValue):
         speed = _within(
             first + acceleration * late, np.minimum(first, second), np.maximum(first, second)
         )
-        speed = np.where(t < self.times[-1], speed, self.speeds[-1])  # whatever the rounding says
+        speed = np.where(t >= self.times[-1], self.speeds[-1], speed)  # whatever the rounding says
         acceleration = acceleration * ((t == time) & (t < self.times[-1]))
         return (
             _within(distance, self.distances[i], self.distances[i + 1])[()],
@@ -274,7 +274,7 @@ class Trajectory(ShownValue, ComparedByValue):
 
     def _before(self, distance: ArrayLike) -> tuple[Floats, NDArray[np.intp], Floats, Floats]:
         """The clipped distance, its stretch, how far it is into it and the speed there."""
-        s = _within(np.asarray(distance, dtype=float), self.distances[0], self.distances[-1])
+        s = _within(numbers_from("distance", distance), self.distances[0], self.distances[-1])
         last = self.accelerations.shape[0] - 1
         i = _within(self.distances.searchsorted(s, side="left") - 1, 0, last)
         into = s - self.distances[i]
@@ -299,7 +299,7 @@ class Trajectory(ShownValue, ComparedByValue):
             late = time_into(into, width, self.speeds[i], speed, self.changes[i], self.jerks[i])
             return np.minimum(self.times[i] + late, self.times[i + 1])[()]
         sums = self.speeds[i] + speed
-        late = np.divide(2.0 * into, sums, out=np.zeros_like(into), where=sums > 0)
+        late = np.divide(2.0 * into, sums, out=np.zeros_like(into), where=sums != 0)
         return np.minimum(self.times[i] + late, self.times[i + 1])[()]
 
     def next_rest(self, distance: float) -> float:

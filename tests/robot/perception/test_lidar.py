@@ -159,6 +159,7 @@ def test_a_scan_says_where_its_beams_hit_and_how_far_they_are_free() -> None:
         ({"ranges": [[1.0]]}, "give one for each beam"),
         ({"heading": math.nan}, "finite position"),
         ({"position": (1.0,)}, "finite position"),
+        ({"range_max": -9.0}, "length above 0 m"),
         ({"angle_increment": 0.0}, "angle above 0"),
         ({"angle_increment": 4.0}, "full turn at most"),
     ],

@@ -128,6 +128,8 @@ class Scan(ComparedByValue):
         numbers = (*self.position, self.heading, self.angle_min, self.range_max)
         if len(self.position) < 2 or not all(math.isfinite(value) for value in numbers):
             raise GeometryError("a scan needs a finite position, heading, angle_min and range_max")
+        if self.range_max <= 0.0:
+            raise GeometryError(f"range_max is {self.range_max}; give a length above 0 m")
         if not 0.0 < self.angle_increment * max(ranges.size - 1, 1) <= math.tau + 1e-9:
             raise GeometryError(
                 f"angle_increment is {self.angle_increment} for {ranges.size} beams; give an angle "
