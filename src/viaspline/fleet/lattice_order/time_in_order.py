@@ -12,6 +12,7 @@ from viaspline.fleet.lattice_order.lattice_paths import PassingSteps
 from viaspline.fleet.lattice_order.passing_orders import passes_second
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.time_paths import Timing, standing_laws
+from viaspline.kernels.fleet.circular_orders import never_arrive
 from viaspline.kernels.fleet.rides_in_order import rides_in_order
 
 ROUNDS = 400
@@ -34,14 +35,16 @@ def time_in_order(
 
     Returns:
         The laws of all. ``blocked`` names robots whose order could not be kept, then the laws are
-        not clear of each other.
+        not clear of each other. Orders with a circle can't, and are not tried.
     """
     second = passes_second(courses, crossings, steps, rides.packed.vanishes)
     ends = np.array([one.steps[-1] for one in steps])
     order = np.argsort(ends, kind="stable").astype(np.int64)
     laws = standing_laws(courses)
-    keeps = rides_in_order(
-        courses.packed, crossings.packed, rides.packed, laws.packed, second, order, ROUNDS
-    )
-    blocked = {robot: robot for robot in np.flatnonzero(~keeps).tolist()}
+    stuck = never_arrive(courses.packed, crossings.packed, second)
+    if not stuck.any():
+        stuck = ~rides_in_order(
+            courses.packed, crossings.packed, rides.packed, laws.packed, second, order, ROUNDS
+        )
+    blocked = {robot: robot for robot in np.flatnonzero(stuck).tolist()}
     return Timing(laws, blocked)
