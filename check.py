@@ -2,6 +2,7 @@
 """Everything that has to hold before a change lands; needs Python 3.11 and nothing else.
 
     python3 check.py            set up .venv if need be, then format, lint, types, layers, tests
+    python3 check.py --all      the slow tests as well, for what many drives or fleets show
     python3 check.py --fix      let ruff mend what it can first
     python3 check.py --quick    for the edit loop, less than a minute: of the tests those of the
                                 files that differ from the last commit, and the house's own
@@ -122,13 +123,14 @@ def main() -> None:
     run(BIN / "lint-imports")
     if "--quick" in sys.argv:
         run(BIN / "mypy")
-        chosen = tests_of(changed())
-        run(BIN / "python", "-m", "pytest", "-x", "-m", "not slow", *chosen)
+        mine = tests_of(changed())
+        run(BIN / "python", "-m", "pytest", "-x", "-m", "not slow", *mine)
     else:
         # Collected once, the tests' bytecode is there for the three processes that run them.
         pytest = (BIN / "python", "-m", "pytest")
+        chosen = () if "--all" in sys.argv else ("-m", "not slow")
         collect, tests = ("--collect-only", "-qq"), ("-n", "3", "--dist", "worksteal")
-        run_beside(BIN / "mypy", (*pytest, *collect), (*pytest, *tests))
+        run_beside(BIN / "mypy", (*pytest, *collect), (*pytest, *chosen, *tests))
 
 
 if __name__ == "__main__":

@@ -49,7 +49,6 @@ def test_a_rover_drives_to_its_goal_and_holds(mission: Path) -> None:
     assert vehicle.mode == 4
 
 
-@pytest.mark.slow
 def test_it_begins_where_it_stands_if_that_is_asked_for(mission: Path) -> None:
     port, vehicle = free_udp_port(), PymavlinkVehicle(at=(1.0, -1.5), heading=0.5)
     with VehicleOnUdp(vehicle, port):
@@ -71,7 +70,6 @@ def test_unarmed_it_stays_where_it_is(mission: Path) -> None:
     assert vehicle.x == 0.0
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent as POSIX has them")
 def test_ctrl_c_stops_it_before_the_process_ends(mission: Path) -> None:
     port, vehicle = free_udp_port(), PymavlinkVehicle()
@@ -127,7 +125,6 @@ def test_a_plane_is_not_driven(mission: Path) -> None:
     assert "system 1 (ArduPilot plane) isn't one that is known how to drive" in result.output
 
 
-@pytest.mark.slow
 def test_a_mission_in_space_is_for_copters(tmp_path: Path) -> None:
     file = tmp_path / "space.yaml"
     file.write_text(

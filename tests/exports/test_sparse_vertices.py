@@ -3,6 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -21,6 +22,7 @@ def fewest(count: int, may_join: np.ndarray) -> int:
     return least[-1]
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(st.lists(st.tuples(numbers, numbers), min_size=3, max_size=5, unique=True))
 def test_there_are_hardly_more_lines_than_the_best_choice_has(

@@ -1,3 +1,5 @@
+import pytest
+
 import viaspline as vs
 from viaspline.fleet.crossing_paths import crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
@@ -29,6 +31,7 @@ def dense_fleet():
     return vs.Fleet.model_validate(data)
 
 
+@pytest.mark.slow
 def test_straight_lines_with_tight_corners_serve_whom_rounder_ones_leave_out() -> None:
     fleet = dense_fleet()
     ways = FleetWays.of(fleet, crossing_paths(fleet))

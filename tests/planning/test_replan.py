@@ -177,6 +177,7 @@ def test_from_rest_turns_away_on_the_spot(shapely_distance: Oracle) -> None:
     check(found, path, 20.0, world, shapely_distance)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=40)
 @given(
     st.integers(0, 10_000), st.sampled_from([None, "local", "short"]), st.sampled_from([3.0, 8.0])

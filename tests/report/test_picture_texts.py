@@ -31,6 +31,7 @@ def counter() -> Any:
     return module
 
 
+@pytest.mark.slow
 def test_texts_of_random_missions_overlap_nowhere_and_stay_on_their_pictures(counter: Any) -> None:
     for kind, count in counter.counted(2, seed=5).items():
         assert count.pictures == 2

@@ -98,6 +98,7 @@ def assert_it_goes_where_the_flood_goes(walls: list[Wall], run: Run) -> None:
     assert run.duration < 90.0
 
 
+@pytest.mark.slow
 @settings(max_examples=2, deadline=None, derandomize=True)
 @given(
     depth=st.floats(1.0, 4.0),
@@ -115,6 +116,7 @@ def test_a_robot_gets_out_of_a_cup_unless_it_is_shut(
     assert_it_goes_where_the_flood_goes(walls, drive(walls, {}, noise))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", DRIVES)
 def test_each_drive_gets_out_of_a_spiral_and_of_the_pockets_of_a_comb(kind: str) -> None:
     keys = DRIVES[kind]

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 Visit = Callable[..., Any]
 
@@ -191,6 +193,7 @@ def test_areas_are_in_the_picture_that_is_exported(visit: Visit, patrol: Path) -
     assert "M0 0L500 0L500 500L0 500Z" in svg
 
 
+@pytest.mark.slow
 def test_every_kind_of_obstacle_that_is_drawn_by_hand_can_be_picked_moved_and_exported(
     visit: Visit, patrol: Path
 ) -> None:

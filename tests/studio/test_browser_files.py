@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
 from click.testing import CliRunner
 
 from viaspline.cli import cli
@@ -102,6 +103,7 @@ def test_the_page_comes_back_when_the_studio_does(visit: Visit, patrol: Path) ->
     assert page.plan["ok"]
 
 
+@pytest.mark.slow
 def test_three_hundred_random_edits_end_where_the_command_line_does(
     visit: Visit, patrol: Path
 ) -> None:

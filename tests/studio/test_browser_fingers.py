@@ -6,6 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 Visit = Callable[..., Any]
 
 MISSION = """\
@@ -107,6 +109,7 @@ def test_fingers_select_drag_pan_zoom_draw_and_open_menus(visit: Visit, tmp_path
     assert page.doc == before
 
 
+@pytest.mark.slow
 def test_every_tool_and_entry_is_reached_by_tab_with_a_focus_that_is_seen(
     visit: Visit, tmp_path: Path
 ) -> None:

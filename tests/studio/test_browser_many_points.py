@@ -81,6 +81,7 @@ def survey(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_long_survey_is_read_shown_and_dragged(visit: Visit, survey: Path) -> None:
     page = visit(survey)
     assert page.plan["ok"]

@@ -267,6 +267,7 @@ EDITS = """async ([seed, count]) => {
 }"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [11, 2718])
 def test_whatever_is_done_to_motions_they_stay_sound_and_all_is_undone(
     visit: Visit, tmp_path: Path, seed: int

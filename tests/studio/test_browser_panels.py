@@ -6,6 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 Visit = Callable[..., Any]
 
 MISSION = """
@@ -41,6 +43,7 @@ def widths(page: Any) -> list[float]:
     ]
 
 
+@pytest.mark.slow
 def test_panels_are_as_wide_as_somebody_drags_them_and_nothing_in_them_is_cut(
     visit: Visit, tmp_path: Path
 ) -> None:

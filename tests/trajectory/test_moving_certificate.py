@@ -184,6 +184,7 @@ def test_the_bound_is_proven_and_within_a_millimetre(seed: int) -> None:
     np.testing.assert_allclose(law.distance_at(when[0]), found.tightest_distance, atol=1e-6)
 
 
+@pytest.mark.slow
 @given(seeds)
 def test_the_first_conflict_is_the_first_one(seed: int) -> None:
     rng = np.random.default_rng(seed)

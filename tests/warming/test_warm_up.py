@@ -25,13 +25,12 @@ MISSION = vs.Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}}
 PLAIN, LIDAR = MissionKind(), MissionKind(("lidar",))
 
 
-@pytest.mark.slow
 @compiled
 @pytest.mark.parametrize(
     "kind",
     [
         "untold",
-        "lidar+ackermann+footprint+turning",
+        pytest.param("lidar+ackermann+footprint+turning", marks=pytest.mark.slow),
         "differential",
     ],
 )

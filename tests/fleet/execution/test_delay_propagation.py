@@ -18,6 +18,7 @@ from viaspline.fleet.execution.delay_propagation import DelayPropagation
 from viaspline.fleet.execution.fleet_orders import orders_of
 
 
+@pytest.mark.slow
 @given(
     seed=st.integers(0, 10_000), count=st.integers(1, 14), late=st.floats(0.0, 100.0),
     departs=st.lists(st.floats(0.0, 30.0), min_size=14, max_size=14),

@@ -137,6 +137,7 @@ def test_old_reports_and_such_of_a_place_farther_back_are_ignored() -> None:
     assert after.progress["r0"] == 15.0
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 10_000), parts=st.lists(st.floats(0.0, 1.0), min_size=9, max_size=9))
 @settings(max_examples=20, deadline=None)
 def test_robots_that_stop_within_the_tolerance_before_their_bars_all_arrive(
@@ -284,6 +285,7 @@ def all_can_arrive(nav: FleetNavigator) -> bool:
             return bool((come >= orders.length).all())
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 10_000), lost=st.floats(0.0, 0.3))
 @settings(max_examples=8, deadline=None)
 @example(seed=5, lost=0.0)

@@ -55,6 +55,7 @@ def total(courses: PackedCourses, laws: PackedLaws) -> float:
     return float(laws.arrive[courses.first[1:] - 1][laws.is_timed].sum())
 
 
+@pytest.mark.slow
 @pytest.mark.long_without_jit
 @given(seed=st.integers(0, 10_000))
 @settings(max_examples=12, deadline=None)

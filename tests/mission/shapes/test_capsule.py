@@ -109,6 +109,7 @@ def test_a_straight_way_past_the_end_of_a_capsule_is_taut() -> None:
     assert taut <= path.length <= 1.01 * taut
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sensor", [{"range_m": 6}, {"lidar": {"range_m": 6, "beams": 240}}])
 def test_an_unseen_capsule_is_found_and_driven_round(sensor: dict[str, Any]) -> None:
     data = mission([]).model_dump(exclude_none=True)

@@ -129,6 +129,7 @@ def test_the_way_is_as_short_as_the_visibility_graph_says(
     assert found.length <= corner_length(found) + 1e-9
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(seeds, st.integers(1, 60))
 def test_a_way_is_found_where_there_is_one_and_only_there(

@@ -74,6 +74,7 @@ def shares(path: vs.Path) -> list[tuple[float, float]]:
     return found
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10_000))
 def test_of_a_lane_with_an_island_all_but_four_of_its_widths_is_kept(seed: int) -> None:

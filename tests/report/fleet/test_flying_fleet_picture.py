@@ -54,6 +54,7 @@ def share_of(colour: str, picture: bytes) -> float:
     return float((np.abs(pixels - wanted).max(axis=2) < 12).mean())
 
 
+@pytest.mark.slow
 def test_all_robots_are_on_the_picture_and_it_is_the_same_every_time(planned: FleetPlan) -> None:
     picture = fleet_picture(planned, "tower")
     for colour in ROBOT_COLOURS[:3]:
@@ -141,6 +142,7 @@ def test_a_fleet_of_which_nobody_has_a_path_has_a_picture() -> None:
     assert fleet_picture(plan, "nobody")
 
 
+@pytest.mark.slow
 def test_what_moves_is_on_the_picture_of_a_fleet_in_space_and_in_the_plane() -> None:
     tram = {"name": "tram", "motion": {"from": [12, -14], "velocity_mps": [0, 2]},
             "circle": {"center": [0, 0], "radius": 3}}  # fmt: skip

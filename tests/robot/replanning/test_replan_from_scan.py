@@ -188,6 +188,7 @@ def field(found: list[tuple[float, float, float, bool]], disc: Shape, box: Shape
     ]
 
 
+@pytest.mark.slow
 @given(obstacles, st.integers(0, 99))
 @settings(deadline=None, max_examples=3)
 def test_the_same_mission_and_seed_give_the_same_bytes(

@@ -83,6 +83,7 @@ def free_ends(
     return all(shape_of(o).distance(shapely.Point(end)) > 0.5 for o in unseen for end in ends)
 
 
+@pytest.mark.slow
 @given(obstacles, st.sampled_from([None, 0.8]), st.sampled_from([0.0, 0.01]), st.integers(0, 99))
 @settings(deadline=None, max_examples=6)
 def test_it_never_touches_what_its_lidar_could_have_shown(
@@ -108,6 +109,7 @@ def test_it_never_touches_what_its_lidar_could_have_shown(
             assert replan.curvature_jump < 1e-6
 
 
+@pytest.mark.slow
 @given(obstacles)
 @settings(deadline=None, max_examples=3)
 def test_it_is_never_faster_than_lets_it_stop_inside_of_what_it_has_seen(

@@ -74,6 +74,7 @@ def test_a_tracking_error_that_is_given_is_kept_without_a_trial(
     assert made.certificate.clearance >= 0.9 - 1e-5
 
 
+@pytest.mark.slow
 def test_the_allowance_is_more_than_what_other_seeds_need(mission_of: Make) -> None:
     mission = mission_of([0, 0], [30, 10], [60, -10], [90, 0], **machine(sensor=None))
     made = plan(mission)
@@ -88,6 +89,7 @@ obstacles = st.lists(
 )
 
 
+@pytest.mark.slow
 @given(obstacles, obstacles, st.sampled_from(list(DRIVES)), st.integers(0, 1000))
 @settings(deadline=None, max_examples=5, phases=[Phase.explicit, Phase.reuse, Phase.generate])
 def test_the_driven_body_is_certified_in_random_missions(
@@ -108,6 +110,7 @@ def test_the_driven_body_is_certified_in_random_missions(
         assert run.certificate.holds, run.certificate
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_drive_and_another_another(mission_of: Make) -> None:
     mission = mission_of([0, 0], [20, 5], [40, 0], **machine())
     one, same, other = (simulate(mission, seed=seed) for seed in (1, 1, 2))

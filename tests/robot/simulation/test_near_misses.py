@@ -151,6 +151,7 @@ def test_what_is_on_the_map_was_known_and_the_edges_are() -> None:
     assert "it is on the map" in shortfall_words(near[0])
 
 
+@pytest.mark.slow
 def test_a_run_that_keeps_its_clearance_has_none_and_one_that_does_not_says_why() -> None:
     for far, kept in ((9.0, True), (0.45, False)):
         mission = mission_among([(6.0, 0.0, 0.4)], {"lidar": {"range_m": far}})

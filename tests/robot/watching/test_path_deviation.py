@@ -40,6 +40,7 @@ def test_a_body_that_looks_another_way_is_off_by_its_corners(slalom_of: Any) -> 
     assert place.off == pytest.approx(2.0 * 0.5831 * 0.0998, abs=2e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drive", [{"differential": {"track_m": 0.5}}, None], ids=["drive", "none"])
 def test_a_robot_that_is_set_off_beside_its_start_comes_to_its_path(
     slalom_of: Any, cart_of: Any, loop: Any, drive: Any
@@ -54,6 +55,7 @@ def test_a_robot_that_is_set_off_beside_its_start_comes_to_its_path(
     assert done.nav.allowance <= nav.allowance + 0.1
 
 
+@pytest.mark.slow
 def test_noise_that_the_mission_tells_of_is_no_deviation(
     slalom_of: Any, cart_of: Any, loop: Any
 ) -> None:

@@ -22,6 +22,7 @@ def deviations(done: Any) -> list[Any]:
     return [event for event in done.book.events if event.kind == "deviation"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("delay", "lag"), [(0.15, 0.3), (0.25, 0.4)])
 def test_without_a_drive_it_says_that_no_allowance_is_kept(
     slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle], delay: float, lag: float
@@ -63,6 +64,7 @@ MAX_SWING_M = 0.12
 """When a robot is told to be beside its path it swings on a little; that nobody can know before."""
 
 
+@pytest.mark.slow
 @given(
     guessed=st.tuples(st.floats(0.0, 0.3), st.floats(0.0, 0.3)),
     true=st.tuples(st.floats(0.0, 0.4), st.floats(0.0, 0.4)),

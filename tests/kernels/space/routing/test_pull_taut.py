@@ -33,6 +33,7 @@ def pull(block: VoxelBlock, way: Floats, least: float = 1e-6, norm: Floats = LEN
     return taut
 
 
+@pytest.mark.slow
 @pytest.mark.long_without_jit
 @settings(max_examples=50)
 @given(st.integers(0, 2**32), st.booleans())

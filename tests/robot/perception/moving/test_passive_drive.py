@@ -99,6 +99,7 @@ corners = st.lists(st.tuples(st.floats(-1, 13), st.floats(-6, 6)), min_size=2, m
 scenes = st.lists(st.tuples(corners, st.floats(0.3, TOP)), min_size=1, max_size=5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("eyes", [by_range, by_lidar])
 @given(scenes)
 @settings(deadline=None, max_examples=12)
