@@ -51,6 +51,7 @@ def tree(known: dict[tuple[int, int, int], int], cell: float = 0.5, depth: int =
     return header.encode() + b"data\n" + bits
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(seed=st.integers(0, 9999))
 def test_every_cube_is_what_the_tree_says(

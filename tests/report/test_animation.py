@@ -32,6 +32,7 @@ def share_of(colour: str, frame: NDArray[np.uint8]) -> float:
     return float((np.abs(frame.astype(int) - wanted).max(axis=2) < 12).mean())
 
 
+@pytest.mark.slow
 def test_a_lidar_sweeps_the_ground_in_the_film(scanned: Run) -> None:
     first, *_, last = frames(scanned, "posts", 6)
     assert share_of(style.UNSEEN, last) > share_of(style.UNSEEN, first) > 0

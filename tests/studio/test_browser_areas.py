@@ -68,6 +68,7 @@ def test_a_fence_is_drawn_and_moved_without_a_mouse(visit: Visit, patrol: Path) 
     assert page.plan["ok"]
 
 
+@pytest.mark.slow
 def test_the_robot_gets_a_polygon_for_a_body_and_a_drive(visit: Visit, patrol: Path) -> None:
     page = visit(patrol)
     field = page.page.get_by_label

@@ -54,6 +54,7 @@ def mission(folder: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_fingers_select_drag_pan_zoom_draw_and_open_menus(visit: Visit, tmp_path: Path) -> None:
     page = visit(mission(tmp_path), width=800, height=700, has_touch=True)
     fingers = Fingers(page)

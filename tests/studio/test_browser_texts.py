@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import pytest
 import yaml
 
 Visit = Callable[..., Any]
@@ -105,6 +106,7 @@ def texts_at_all_widths(page: Any, state: str) -> Iterator[str]:
                 yield f"{width} px, {state}, {sheet}: {found}"
 
 
+@pytest.mark.slow
 def test_no_text_is_cut_in_the_panels(visit: Visit, tmp_path: Path) -> None:
     path = tmp_path / "a-survey-with-a-name.yaml"
     path.write_text(yaml.safe_dump(MISSION))

@@ -64,6 +64,7 @@ process.stdout.write(yamlOf(JSON.parse(process.argv[1])));
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(which("node") is None, reason="node isn't installed")
 @settings(max_examples=4, deadline=None)
 @given(st.lists(st.dictionaries(st.text(max_size=6), VALUES, max_size=4), min_size=1, max_size=40))

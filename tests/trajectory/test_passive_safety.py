@@ -111,6 +111,7 @@ def test_braking_is_proven_where_nothing_can_be_in_the_way(
         assert law.start_time <= until <= law.end_time
 
 
+@pytest.mark.slow
 @given(scenes())
 @settings(deadline=None, max_examples=30)
 def test_a_passive_law_and_braking_from_anywhere_on_it_are_touched_by_nothing(

@@ -38,6 +38,7 @@ def test_it_says_what_the_whole_fleet_reckoned_anew_says(
         assert [delays.get(one, 0.0) for one in orders.names] == pytest.approx(anew, abs=1e-6)
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 10_000), late=st.floats(0.1, 100.0))
 @settings(max_examples=25, deadline=None)
 def test_a_delay_reaches_those_who_wait_and_never_grows(seed: int, late: float) -> None:

@@ -89,6 +89,7 @@ def test_laws_that_meet_keep_no_order() -> None:
         orders_of(replace(fleet, laws=alone))
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 10_000), count=st.integers(1, 12))
 @settings(max_examples=25, deadline=None)
 def test_orders_of_laws_that_keep_apart_are_acyclic(seed: int, count: int) -> None:

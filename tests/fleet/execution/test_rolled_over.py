@@ -109,6 +109,7 @@ def _nearest(plan: FleetPlan, come: dict[str, float]) -> float:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("made", [patrols, mixed_ones])
 def test_patrols_go_on_longer_than_their_plans(made: Callable[[], FleetPlan]) -> None:
     plan = made()

@@ -30,6 +30,7 @@ ALL_DELAYS = st.builds(
 )
 
 
+@pytest.mark.slow
 @given(
     seed=st.integers(0, 10_000),
     delays=ALL_DELAYS,

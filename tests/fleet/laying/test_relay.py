@@ -78,6 +78,7 @@ def test_a_ring_of_robots_that_each_want_the_next_ones_place_is_served(count: in
     assert least_distance(found.plans) >= APART
 
 
+@pytest.mark.slow
 def test_robots_that_cross_a_circle_through_its_middle_are_served() -> None:
     places = on_a_circle(6, 10.0)
     crossing = fleet(*zip(places, places[3:] + places[:3], strict=True))

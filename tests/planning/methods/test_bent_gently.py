@@ -114,6 +114,7 @@ def test_given_headings_are_kept_straight_and_the_path_between_bends_less(
     assert path.curvature_jumps().max() < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_a_round_bends_less_and_goes_on_at_its_seam_without_a_jump(
     monkeypatch: pytest.MonkeyPatch, seed: int

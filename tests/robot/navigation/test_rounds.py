@@ -198,6 +198,7 @@ def test_points_are_noted_as_given_up_once_a_lap() -> None:
     assert not laps.is_goal(37)
 
 
+@pytest.mark.slow
 def test_what_is_kept_grows_with_what_is_known_and_not_with_the_drive() -> None:
     mission = patrol(60, radius_m=0.05, clearance_m=0.05, sensor={"range_m": 8.0})
     nav, replans, tick, kept = Navigator(mission), 0, 0, []

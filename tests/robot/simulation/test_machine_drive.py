@@ -37,6 +37,7 @@ def machine(kind: str = "differential", **more: Any) -> dict[str, Any]:
     return {**keys, "max_lateral_accel_mps2": 1.0, **more}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", list(DRIVES))
 def test_a_machine_serves_its_route_and_its_body_keeps_its_clearance(
     mission_of: Make, disc_at: Shape, gap_of: Callable[..., float], kind: str

@@ -65,6 +65,7 @@ def look(nav: Navigator, discs: Any) -> Callable[[RobotState, int, float], Scan]
     return lambda state, tick, _: sensor.scan(state.position, state.heading, tick)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("blind", ["missing", "empty", "old"])
 def test_scans_that_do_not_come_stop_the_robot(
     slalom_of: Any, cart_of: Any, loop: Any, discs: Any, blind: str

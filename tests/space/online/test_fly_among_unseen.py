@@ -154,6 +154,7 @@ def test_a_flight_among_what_moves_unseen_takes_a_sensor() -> None:
         fly(plan_spatial(blind))
 
 
+@pytest.mark.slow
 @settings(max_examples=4)
 @given(seed=st.integers(0, 100_000))
 def test_flights_keep_their_limits_and_tell_the_gaps_that_there_were(seed: int) -> None:

@@ -51,6 +51,7 @@ def type_origin(page: Any, words: str) -> None:
     field.press("Enter")
 
 
+@pytest.mark.slow
 def test_a_point_is_read_and_typed_as_latitude_and_longitude(visit: Visit, patrol: Path) -> None:
     page = visit(patrol)
     page.js("studio.store.select('via:1')")
