@@ -60,9 +60,7 @@ def _items(table: PathTable) -> Iterator[_Rest]:
     first, last = table.airborne or (0, end)
     route = table.mission.route
     for k in range(len(table.points)):
-        if (route.takeoff is not None and 0 < k < first) or (
-            route.land is not None and last < k < end
-        ):
+        if 0 < k < first or last < k < end:
             continue  # on an upright leg, which is one item whatever corners it has
         if k > 0 and _level_share(table, k - 1) > 1e-6:
             wanted = _set_speed(table, k - 1)

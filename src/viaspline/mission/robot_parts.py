@@ -210,6 +210,11 @@ class RobotSpec(
         )
 
     @property
+    def is_passive(self) -> bool:
+        """Whether it is to stand before anything touches it that may come unseen."""
+        return self.moving is not None and self.moving.safety == "passive"
+
+    @property
     def outer_radius(self) -> float:
         """The radius of the smallest disc about the reference point that contains the body [m]."""
         if self.footprint is None:

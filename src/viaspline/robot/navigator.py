@@ -279,8 +279,7 @@ class Navigator:
         Under passive safety there is no such time: with every look its law may go on for longer.
         """
         state, end = self._state, self.trajectory.end_time
-        things = self.mission.robot.moving
-        if things is not None and things.safety == "passive":
+        if self.mission.robot.is_passive:
             return state.progress.time
         renewed = renewed_at(self._task, state.knowledge, state.schedule)
         return min(renewed, grows_after(state.schedule), end)

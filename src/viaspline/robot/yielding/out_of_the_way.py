@@ -58,8 +58,7 @@ def _aside(context: ReplanContext, paths: Swerves, later: float) -> PathCandidat
 
     One that is to be at rest in time brakes on its path, where that is proven, until it stands.
     """
-    things = context.task.mission.robot.moving
-    is_passive = things is not None and things.safety == "passive"
+    is_passive = context.task.mission.robot.is_passive
     if later == math.inf or (is_passive and context.speed > 0.0):
         return None
     moving, now = context.knowledge.moving, context.progress.time
