@@ -33,6 +33,8 @@ CHORD_M = 0.25
 """Length of the chords that a path is taken for [m]."""
 MOST_LATER = 3.0
 """Of the longest drive: who departs later than that does so after all others anyway."""
+STANDING_SHARE = 0.1
+"""Of the rounding of a corner, where a robot stands: others pass there meanwhile."""
 SAME_M = 1e-6
 """Places that are no farther apart are one [m]."""
 
@@ -263,7 +265,9 @@ def _laid(
     across = limits.max_lateral_accel
     widest = limits.max_speed**2 / across if across else farthest
     requirements = Requirements.of(plan.mission, plan.tracking_error)
-    lines = rounded_lines(places[own], world, requirements.around, widest, farthest)
+    stands = np.bincount(corner)[1:-1] > 1
+    near = np.where(stands, STANDING_SHARE * farthest, farthest)
+    lines = rounded_lines(places[own], world, requirements.around, widest, near)
     begin, end = plan.path.stops[0][0], plan.path.stops[-1][0]
     vias = (replace(begin, u=0.0), replace(end, u=float(len(lines.spans))))
     path = Path(lines.spans, vias)

@@ -37,7 +37,7 @@ class RoundedLines:
 
 
 def rounded_lines(
-    places: Floats, world: World, kept: float, widest: float, farthest: float
+    places: Floats, world: World, kept: float, widest: float, farthest: float | Floats
 ) -> RoundedLines:
     """Round the corners of straight lines by arcs inside of them.
 
@@ -47,7 +47,8 @@ def rounded_lines(
         world: What stands.
         kept: What the curve keeps of it [m].
         widest: Radius of an arc at most [m].
-        farthest: How far an arc may be from its corner [m].
+        farthest: How far an arc may be from its corner [m]; for all, or for each that lies between
+            the first place and the last, (k - 2,).
 
     Example:
         >>> lines = rounded_lines(np.array([[0., 0.], [5., 0.], [5., 5.]]), World(), 1., 1., 1.)

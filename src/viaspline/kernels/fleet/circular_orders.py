@@ -1,9 +1,14 @@
-"""Robots whose orders have a circle: each waits for one that waits, in the end, for itself.
+"""Places of robots whose orders have a circle: each waits for one that waits, in the end, for it.
+
+A robot is at a node after it was at the one before, and after those have been at theirs that pass
+before it.
 
 Tested through ``fleet/lattice_order/test_time_in_order``.
 """
 
 from __future__ import annotations
+
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -11,79 +16,134 @@ from viaspline.kernels.arrays import Flags, Ints
 from viaspline.kernels.fleet.blocked_times import node_before
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inner, kernel, uncounted
+
+FORWARD: Final = 1
+BACKWARD: Final = -1
+
+
+class BoxWaits(NamedTuple):
+    """What the boxes of a fleet's crossings wait for, if their robots pass second.
+
+    Attributes:
+        awaited: The node at which the other one has to have been before a box is free, (boxes,).
+        boxes: The boxes, those that wait for one node together, (boxes,).
+        of_node: Where among these those of each node begin, (nodes + 1,).
+        in_cell: Where the boxes of the cell of each node begin, (nodes + 1,).
+    """
+
+    awaited: Ints
+    boxes: Ints
+    of_node: Ints
+    in_cell: Ints
 
 
 @inner
-def _awaited(courses: PackedCourses, crossings: PackedCrossings, second: Flags) -> Ints:
-    """The node at which the other one has to have been before a box is free; -1: none, (boxes,)."""
-    nodes = np.full(second.size, -1, np.int64)
-    for b in range(second.size):
-        if second[b]:
-            first, last = courses.first[crossings.other[b]], courses.first[crossings.other[b] + 1]
-            nodes[b] = node_before(courses.distance, first, last - 1, crossings.high[b])
-    return nodes
-
-
-@inner
-def _boxes_by(nodes: Ints, count: int) -> tuple[Ints, Ints]:
-    """Boxes sorted by a node of theirs, and where those of each node begin, (count + 1,)."""
+def _first_of_each(nodes: Ints, count: int) -> Ints:
+    """Where those of each node begin, once they are sorted by their nodes, (count + 1,)."""
     begin = np.zeros(count + 1, np.int64)
     for node in nodes:
-        if node >= 0:
-            begin[node + 1] += 1
-    begin = np.cumsum(begin)
-    boxes, free = np.empty(begin[-1], np.int64), begin.copy()
-    for b in range(nodes.size):
-        if nodes[b] >= 0:
-            boxes[free[nodes[b]]] = b
-            free[nodes[b]] += 1
-    return boxes, begin
+        begin[node + 1] += 1
+    return np.cumsum(begin)
 
 
-@inner
-def _without_one(before: Ints, node: int, todo: Ints, known: int) -> int:
-    """Take one of those away that are before a node; how many nodes are to do then."""
-    before[node] -= 1
-    if before[node] == 0:
+@kernel
+def box_waits(courses: PackedCourses, crossings: PackedCrossings) -> BoxWaits:
+    """What the boxes of a fleet's crossings wait for.
+
+    Args:
+        courses: PackedCourses.
+        crossings: PackedCrossings.
+    """
+    total, count = crossings.cell.size, courses.distance.size
+    awaited, boxes = np.empty(total, np.int64), np.empty(total, np.int64)
+    for b in range(total):
+        first, last = courses.first[crossings.other[b]], courses.first[crossings.other[b] + 1]
+        awaited[b] = node_before(courses.distance, first, last - 1, crossings.high[b])
+    of_node = _first_of_each(awaited, count)
+    free = of_node.copy()
+    for b in range(total):
+        boxes[free[awaited[b]]] = b
+        free[awaited[b]] += 1
+    return BoxWaits(awaited, boxes, of_node, _first_of_each(crossings.cell, count))
+
+
+@uncounted
+def _without_one(left: Ints, node: int, todo: Ints, known: int) -> int:
+    """Take one of those away that a node hangs on; how many nodes are to do then."""
+    left[node] -= 1
+    if left[node] == 0:
         todo[known] = node
         known += 1
     return known
 
 
-@kernel
-def never_arrive(courses: PackedCourses, crossings: PackedCrossings, second: Flags) -> Flags:
-    """Which robots can't arrive, whatever their speeds: their order has a circle, or is behind one.
+@uncounted
+def _take_away(
+    cell: Ints, waits: BoxWaits, second: Flags, ends: Flags, left: Ints, todo: Ints, known: int,
+    way: int,
+) -> None:  # fmt: skip
+    """Take nodes away that nothing is before, or after, again and again (Kahn, 1962).
 
-    A robot is at a node after it was at the one before, and after those have been at theirs that
-    pass before it. What is left when nodes are taken away that nothing is before is in a circle, or
-    waits for one (Kahn, 1962).
+    Args:
+        cell: See ``PackedCrossings``.
+        waits: Of the same.
+        second: Whether the robot of a box passes after the other one, (boxes,).
+        ends: Whether a node is the last one of its robot, if ``way`` is forward, else the first
+            one, (nodes,).
+        left: How many each node hangs on, (nodes,); written to.
+        todo: Those that hang on none, in front, (nodes,); written to.
+        known: How many these are.
+        way: Forward or backward.
+    """
+    done = 0
+    while done < known:
+        node = todo[done]
+        done += 1
+        if way == FORWARD:
+            for k in range(waits.of_node[node], waits.of_node[node + 1]):
+                if second[waits.boxes[k]]:
+                    known = _without_one(left, cell[waits.boxes[k]], todo, known)
+        else:
+            for b in range(waits.in_cell[node], waits.in_cell[node + 1]):
+                if second[b]:
+                    known = _without_one(left, waits.awaited[b], todo, known)
+        if not ends[node]:
+            known = _without_one(left, node + way, todo, known)
+
+
+@kernel
+def in_circles(
+    courses: PackedCourses, crossings: PackedCrossings, waits: BoxWaits, second: Flags
+) -> Flags:
+    """The nodes that are in a circle of orders, or between two such circles.
+
+    Where there is none, all robots can arrive; a robot that has no such node waits for itself
+    nowhere.
 
     Args:
         courses: PackedCourses.
         crossings: PackedCrossings.
+        waits: Of these.
         second: Whether the robot of a box passes after the other one, (boxes,).
 
     Returns:
-        (n,).
+        (nodes,).
     """
-    awaited = _awaited(courses, crossings, second)
     count = courses.distance.size
-    boxes, begin = _boxes_by(awaited, count)
-    before = np.ones(count, np.int64)
-    before[courses.first[:-1]] = 0
-    for b in boxes:
-        before[crossings.cell[b]] += 1
-    first = np.flatnonzero(before == 0)
-    todo, known, done = np.empty(count, np.int64), first.size, 0
-    todo[:known] = first
-    is_last = np.zeros(count, np.bool_)
+    is_first, is_last = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+    is_first[courses.first[:-1]] = True
     is_last[courses.first[1:] - 1] = True
-    while done < known:
-        node = todo[done]
-        done += 1
-        for k in range(begin[node], begin[node + 1]):
-            known = _without_one(before, crossings.cell[boxes[k]], todo, known)
-        if not is_last[node]:
-            known = _without_one(before, node + 1, todo, known)
-    return before[courses.first[1:] - 1] > 0
+    before, after = np.ones(count, np.int64), np.ones(count, np.int64)
+    before[is_first] = 0
+    after[is_last] = 0
+    for b in range(second.size):
+        if second[b]:
+            before[crossings.cell[b]] += 1
+            after[waits.awaited[b]] += 1
+    todo = np.empty(count, np.int64)
+    for left, ends, way in ((before, is_last, FORWARD), (after, is_first, BACKWARD)):
+        free = np.flatnonzero(left == 0)
+        todo[: free.size] = free
+        _take_away(crossings.cell, waits, second, ends, left, todo, free.size, way)
+    return (before > 0) & (after > 0)

@@ -24,6 +24,8 @@ from viaspline.kernels.jit import inner, kernel
 
 SLACK_S = 1e-9
 """So much later than it may a robot comes to a node, for rounding."""
+PATIENT_RIDES = 10
+"""So often a ride changes before its robot waits right before it has to, if there are rounds."""
 
 
 @inner
@@ -80,30 +82,35 @@ def rides_in_order(
         rides: PackedRides.
         laws: They are written to.
         second: Whether the robot of a box passes after the other one, (boxes,).
-        order: The robots in the order in which their rides are reckoned, (n,).
-        rounds: How often, at most; in the second half robots wait right before they have to.
+        order: Robots in the order in which their rides are reckoned, (m,); the others get none,
+            and nobody may pass after them.
+        rounds: How often, at most; in the second half all wait right before they have to.
 
     Returns:
         Whether the law of each robot keeps the order, (n,).
     """
-    keeps = np.ones(order.size, np.bool_)
+    robots = courses.first.size - 1
+    keeps = np.ones(robots, np.bool_)
     for robot in order:
         take_law(new_ride(courses, rides, robot), laws)
-    is_due = np.ones(order.size, np.bool_)
+    is_due, changes = np.ones(robots, np.bool_), np.zeros(robots, np.int64)
     for k in range(rounds):
         is_settled = True
         for robot in order:
             if not is_due[robot]:
                 continue
             is_due[robot] = False
+            is_near = changes[robot] > PATIENT_RIDES or 2 * k >= rounds
             releases = _releases(courses, crossings, laws, second, robot)
-            ride, keeps[robot] = _ride_after(courses, rides, robot, releases, 2 * k >= rounds)
-            if first_change(ride, laws) >= 0:
+            ride, keeps[robot] = _ride_after(courses, rides, robot, releases, is_near)
+            change = first_change(ride, laws)
+            if change >= 0:
                 take_law(ride, laws)
                 is_settled = False
+                changes[robot] += 1
                 keeps[robot] = keeps[robot] and k + 1 < rounds
                 for b in range(crossings.box_first[robot], crossings.box_first[robot + 1]):
-                    if not second[b]:
+                    if not second[b] and crossings.cell[b] >= ride.first + change - 1:
                         is_due[crossings.other[b]] = True
         if is_settled:
             break
