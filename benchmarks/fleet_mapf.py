@@ -24,20 +24,12 @@ import numpy as np
 from timing import clock
 
 import viaspline as vs
-from viaspline.fleet.courses import courses_of
-from viaspline.fleet.crossings import crossings_of
-from viaspline.fleet.fleet_certificate import certify_fleet
-from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_order
-from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
-from viaspline.fleet.lattice_order.time_in_order import time_in_order
-from viaspline.fleet.timing.rides import rides_of
 from viaspline.kernels.fleet.lattice_distances import lattice_distances
 from viaspline.maps.movingai import read_movingai, read_problems
 from viaspline.mission.fleet.fleet import FleetMember
-from viaspline.planner import plan_in
 
 CASES = ("Berlin_1_256:100", "warehouse-10-20-10-2-1:100", "den312d:100", "random-32-32-20:50",
-         "crowd:100", "crowd:729")  # fmt: skip
+         "crowd:100", "crowd:729", "Berlin_1_256:500")  # fmt: skip
 DISC = {"radius_m": 0.35, "clearance_m": 0.0, "max_speed_mps": 1.0, "max_accel_mps2": 1.0}
 CROWD = {"radius_m": 0.5, "clearance_m": 0.0, "max_speed_mps": 2.0, "max_accel_mps2": 1.0}
 
@@ -89,49 +81,20 @@ def members_of(world, robot, ends) -> list[FleetMember]:
     return members
 
 
-def led(members, alone):
-    """Robots led over a lattice: their paths, and their laws."""
-    order = lattice_order(alone, 0.0)
-    if isinstance(order, NoLatticeOrder):
-        return None
-    best = None
-    for shape in SHAPES:
-        paths = order.paths(shape)
-        courses = courses_of(paths.plans, 0.0)
-        crossings = crossings_of(courses)
-        rides = rides_of(members, list(paths.plans.values()), courses)
-        timing = time_in_order(courses, crossings, rides, list(paths.steps.values()))
-        arrive = timing.laws.packed.arrive[courses.packed.first[1:] - 1]
-        rank = len(timing.blocked), arrive.sum()
-        if best is None or rank < best[0]:
-            best = rank, courses, timing
-        if shape is SHAPES[0] and not timing.blocked:
-            break
-    return best[1:]
-
-
 def main(folder: Path, cases) -> None:
-    print(f"{'case':28s} {'served':>8s} {'alone s':>9s} {'sum s':>9s} of shortest  "
-          f"{'plan s':>7s} {'lead s':>7s} apart m")  # fmt: skip
+    print(f"{'case':28s} {'served':>8s} {'alone s':>9s} {'sum s':>9s} of shortest  {'took s':>7s} "
+          "apart m")  # fmt: skip
     for case in cases:
         name, count = case.split(":")
         asked = crowd(int(count)) if name == "crowd" else on_map(folder, name, int(count))
-        members = members_of(*asked)
-        world = vs.World.known(members[0].mission)
-        plan_s, alone = clock(lambda: {m.name: plan_in(m.mission, world) for m in members})  # noqa: B023
-        lead_s, found = clock(lambda: led(members, alone))  # noqa: B023
-        if found is None:
-            print(f"{case:28s} no lattice")
-            continue
-        courses, timing = found
-        ends = timing.laws.packed.arrive[courses.packed.first[1:] - 1]
-        proof = certify_fleet(courses, timing.laws, 0.0)
+        fleet = vs.Fleet.of(members_of(*asked), 0.0)
+        took, plan = clock(lambda: vs.plan_fleet(fleet))  # noqa: B023
+        ends = sum(one.trajectory.end_time for one in plan.plans.values())
         least = shortest(asked[0], asked[2])
-        by = f"{ends.sum() / least:11.3f}" if least else " " * 11
-        total = sum(one.trajectory.duration for one in alone.values())
-        served = f"{len(members) - len(timing.blocked)}/{len(members)}"
-        print(f"{case:28s} {served:>8s} {total:9.0f} {ends.sum():9.0f} {by}  "
-              f"{plan_s:7.2f} {lead_s:7.2f} {proof.separation:.3f}", flush=True)  # fmt: skip
+        by = f"{ends / least:11.3f}" if least else " " * 11
+        served = f"{len(plan.plans)}/{len(fleet.members)}"
+        print(f"{case:28s} {served:>8s} {sum(plan.alone.values()):9.0f} {ends:9.0f} {by}  "
+              f"{took:7.2f} {plan.certificate.separation:.3f}", flush=True)  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -12,7 +12,9 @@ import numpy as np
 from viaspline.errors import GeometryError
 from viaspline.fleet.courses import FleetCourses, courses_of
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
-from viaspline.fleet.laying.lay_paths import THIS_PROCESS, LaidPaths, LayingProgress, lay_paths
+from viaspline.fleet.laying.alone_paths import AlonePaths
+from viaspline.fleet.laying.laid_pieces import THIS_PROCESS, LayingProgress
+from viaspline.fleet.laying.lay_paths import LaidPaths, lay_paths
 from viaspline.fleet.laying.laying_workers import LayingWorkers
 from viaspline.fleet.renewed_courses import renewed_courses
 from viaspline.fleet.renewed_crossings import renewed_crossings
@@ -43,6 +45,7 @@ def crossing_paths(
     progress: LayingProgress | None = None,
     before: CrossingPaths | None = None,
     workers: LayingWorkers = THIS_PROCESS,
+    alone: AlonePaths | None = None,
 ) -> CrossingPaths:
     """Lay the paths of a fleet as if nothing moved, and find where they come near each other.
 
@@ -52,6 +55,7 @@ def crossing_paths(
         before: What was found of an earlier state of the fleet; what is found is the same without
             it.
         workers: Who lays the paths; these don't depend on that.
+        alone: What each robot does if it is alone, if that is known.
 
     Raises:
         GeometryError: It is a fleet in space, whose paths ``plan_fleet`` lays.
@@ -72,7 +76,8 @@ def crossing_paths(
     if fleet.is_spatial:
         raise GeometryError("this is a fleet in space; give plan_fleet(fleet) or viaspline plan")
     fleet = without_motion(fleet)
-    laid = lay_paths(fleet, progress, None if before is None else before.laid.kept, workers)
+    kept = None if before is None else before.laid.kept
+    laid = lay_paths(fleet, progress, kept, workers, alone)
     separation, plans = fleet.separation_m, laid.plans
     changed = _changed(laid, separation, before)
     if before is None or changed is None:

@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from viaspline.errors import GaveUpError, GeometryError, PlanningError
+
 Outcome: TypeAlias = Literal["refused", "gave up"]
 
 
@@ -30,3 +32,13 @@ class NotServed:
     remedy: str
     obstacles: tuple[str, ...] = ()
     where: tuple[float, ...] | None = None
+
+
+def not_served(name: str, error: PlanningError | GeometryError) -> NotServed:
+    """What is told of a robot that has no path."""
+    if isinstance(error, PlanningError):
+        outcome: Outcome = "gave up" if isinstance(error, GaveUpError) else "refused"
+        where = (error.where[0], error.where[1])
+        return NotServed(name, outcome, error.reason, error.remedy, error.obstacles, where)
+    reason, _, remedy = str(error).partition("; ")
+    return NotServed(name, "refused", reason, remedy)

@@ -11,15 +11,18 @@ from viaspline.fleet.among_moving import among_moving, proven_among
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.laying.lay_paths import THIS_PROCESS
+from viaspline.fleet.late_share import WELL_SERVED_SHARE, arrivals_of, late_share
+from viaspline.fleet.laying.alone_paths import AlonePaths, alone_paths
+from viaspline.fleet.laying.laid_pieces import THIS_PROCESS, LayingProgress
 from viaspline.fleet.laying.laying_workers import LayingWorkers
+from viaspline.fleet.led_fleet import LEAST_LED, is_dense, led_at_once
 from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.patrols.timed_patrols import timed_patrols
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet, try_cost
-from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_fleet
+from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_along
 from viaspline.fleet.space.plan_spatial_fleet import plan_spatial_fleet
 from viaspline.fleet.still_world import without_motion
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
@@ -104,35 +107,57 @@ def plan_fleet(
 
     if fleet.is_spatial:
         return plan_spatial_fleet(fleet, improve, tell, workers, periods)
-    if paths is None:
-        paths = crossing_paths(
-            fleet, lambda done, of: tell("laying paths", done / of), workers=workers
-        )
-    tell("timing", 0.0)
-    still = without_motion(fleet)
-    ways = FleetWays.of(still, paths)
 
     def improving(share: float) -> None:
         tell("improving", share)
 
+    def laying(done: int, of: int) -> None:
+        tell("laying paths", done / of)
+
+    alone = _alone(fleet, paths, laying, workers)
+    led = None if alone is None else led_at_once(fleet, alone)
+    if led is not None:
+        led = _sooner(led, improve, improving)
+        tell("proving", 0.0)
+        return _planned(fleet, led, ())
+    if paths is None:
+        paths = crossing_paths(fleet, laying, workers=workers, alone=alone)
+    tell("timing", 0.0)
+    timed = _timed(fleet, paths, improve, periods, improving)
+    tell("proving", 0.0)
+    unserved = _unserved(fleet, paths, timed, TRIES_S)
+    return _planned(fleet, timed, (*paths.laid.not_served, *unserved))
+
+
+def _alone(
+    fleet: Fleet, paths: CrossingPaths | None, progress: LayingProgress, workers: LayingWorkers
+) -> AlonePaths | None:
+    """What each robot does if it is alone; None where that isn't known of the paths."""
+    if paths is None:
+        return alone_paths(without_motion(fleet), progress, workers=workers)
+    return None if paths.laid.kept is None else AlonePaths.of_kept(paths.laid.kept)
+
+
+def _timed(
+    fleet: Fleet, paths: CrossingPaths, improve: float, periods: int,
+    improving: Callable[[float], None],
+) -> TimedFleet:  # fmt: skip
+    """The robots of a fleet timed along its paths, or along others."""
+    still = without_motion(fleet)
+    ways = FleetWays.of(still, paths)
     if still is not fleet:
-        timed = among_moving(
+        return among_moving(
             fleet, ways,
             lambda out: _sooner(_of_those_that_end(still, ways, out), improve, improving),
         )  # fmt: skip
-    elif _has_patrols(ways):
+    if _has_patrols(ways):
         timed = timed_patrols(
             ways, fleet.separation_m, periods,
             lambda among, out: _of_those_that_end(fleet, among, out),
         )  # fmt: skip
-        timed = _sooner(timed, improve, improving)
-    else:
-        timed = served_fleet(fleet, paths, WHOLE_EFFORT)
-        if improve > 0.0:
-            timed = _improved(fleet, timed, paths, improve, improving)
-    tell("proving", 0.0)
-    unserved = _unserved(fleet, paths, timed, TRIES_S)
-    return _planned(fleet, timed, (*paths.laid.not_served, *unserved))
+        return _sooner(timed, improve, improving)
+    timed = served_along(fleet, paths, WHOLE_EFFORT)
+    return _improved(fleet, timed, paths, improve, improving) if improve > 0.0 else timed
 
 
 def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
@@ -154,6 +179,24 @@ def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
     else:
         timed = _by_priority(ways, {})
     return _planned(fleet, timed, (*paths.laid.not_served, *_unserved(fleet, paths, timed, 0.0)))
+
+
+def is_settled_by_priority(plan: FleetPlan, paths: CrossingPaths) -> bool:
+    """Whether ``plan_fleet`` has nothing better for a fleet than ``plan_by_priority``.
+
+    Args:
+        plan: By priority.
+        paths: Of the very fleet.
+    """
+    if len(plan.plans) < len(paths.laid.plans):
+        return False
+    members = plan.fleet.members
+    if plan.patrols is not None or plan.fleet.world.moving or len(members) < LEAST_LED:
+        return True
+    if late_share(plan.rides, arrivals_of(plan.courses, plan.laws)) > WELL_SERVED_SHARE:
+        return False
+    kept = paths.laid.kept
+    return kept is None or not is_dense(plan.fleet, AlonePaths.of_kept(kept))
 
 
 def _unserved(

@@ -17,7 +17,7 @@ from viaspline.fleet.laying.kept_paths import KeptPaths, PathAlone
 from viaspline.fleet.laying.lay_round_stretch import lay_round_stretch, laying_cost
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.timed_fleet import TimedFleet
-from viaspline.fleet.timing.law_search import PRIORITY_WEIGHT
+from viaspline.fleet.timing.law_search import priority_weights
 from viaspline.kernels.arrays import Floats, Ints
 
 LAYINGS_A_TRY = 2.0
@@ -105,8 +105,7 @@ def _key(stretch: ContestedStretch) -> tuple[int, int, int, int]:
 def _score(timed: TimedFleet, asked: Floats) -> tuple[int, float]:
     """How many aren't served, and how late the others are in all, weighed by priority [s]."""
     ways, laws = timed.ways, timed.timing.laws.packed
-    priorities = np.array([one.priority for one in ways.members])
-    weight = PRIORITY_WEIGHT ** np.clip(priorities - priorities.mean(), -20.0, 20.0)
+    weight = priority_weights([one.priority for one in ways.members])
     served = np.array([k not in timed.timing.blocked for k in range(len(ways.members))])
     ends = laws.arrive[ways.courses.packed.first[1:] - 1]
     late = ends - ways.rides.packed.depart - asked

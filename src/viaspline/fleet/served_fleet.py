@@ -8,9 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from viaspline.fleet.crossing_paths import CrossingPaths
+from viaspline.fleet.laying.alone_paths import AlonePaths
+from viaspline.fleet.led_fleet import LEAST_LED, led_at_once, led_fleet
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.unserved.pair_refusal import cannot_both_be_served
 from viaspline.mission.fleet.fleet import Fleet
 
@@ -37,22 +39,36 @@ TRIAL_EFFORT = LadderEffort(2.0, 2.0)
 def served_fleet(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> TimedFleet:
     """Time robots by priority; where that leaves some without a law, look for other ways.
 
-    Where timing some others anew doesn't help (``time_paths``), all are led over a
-    lattice, if they can be; else some are laid off the stretches on which they are in each other's
-    way, else among the others that move as it is known, unless it is proven that this is of no use.
+    Robots that rest densely are led over a lattice at once, if all can be. Else they are timed
+    along paths round all resting places, some of them once more (``time_paths``). Where that leaves
+    any out, or serves many badly, all are led over a lattice as well. Else some are laid off the
+    stretches on which they are in each other's way, else among the others that move as it is known,
+    unless it is proven that this is of no use.
 
     Args:
         fleet: What is asked for.
         paths: Of the very fleet.
         effort: What may be spent.
     """
+    kept = paths.laid.kept
+    led = None if kept is None else led_at_once(fleet, AlonePaths.of_kept(kept))
+    return led or served_along(fleet, paths, effort)
+
+
+def served_along(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> TimedFleet:
+    """As ``served_fleet``, where robots aren't led over a lattice at once."""
     ways = FleetWays.of(fleet, paths)
     timed = TimedFleet.by_priority(ways)
+    is_small = len(ways.members) < LEAST_LED
+    if timed.is_served_well or (is_small and not timed.blocked):
+        return timed
+    led = led_fleet(
+        ways.members, dict(zip(ways.courses.names, ways.planar, strict=True)), fleet.separation_m
+    )
+    if isinstance(led, TimedFleet) and not led.blocked:
+        return min(timed, led, key=lambda one: one.rank)
     if not timed.blocked:
         return timed
-    led = on_lattice(ways, fleet.separation_m)
-    if isinstance(led, TimedFleet) and not led.blocked:
-        return led
     if paths.laid.kept is not None:
         timed = rerouted_fleet(timed, paths.laid.kept, fleet.separation_m, effort.reroute)
     pairs = timed.timing.blocked.items()

@@ -1,4 +1,7 @@
-"""Robots with paths and laws: by priority, or by the order of a lattice."""
+"""Robots with paths and laws: by priority, or by another order.
+
+Tested through ``fleet/test_plan_fleet``.
+"""
 
 from __future__ import annotations
 
@@ -12,17 +15,17 @@ from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_of
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_order
-from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
-from viaspline.fleet.lattice_order.time_in_order import time_in_order
+from viaspline.fleet.late_share import WELL_SERVED_SHARE, arrivals_of, late_share
 from viaspline.fleet.patrols.driven_laps import write_law
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.renewed_courses import renewed_courses
 from viaspline.fleet.renewed_crossings import renewed_crossings
 from viaspline.fleet.timing.improve_laws import improve_laws
+from viaspline.fleet.timing.law_search import priority_weights
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import Timing, standing_laws, time_paths
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
@@ -303,11 +306,23 @@ class TimedFleet:
 
     @property
     def rank(self) -> tuple[int, float]:
-        """How many have no law, and the sum of the arrivals of the others [s]: less is better."""
-        laws, first = self.timing.laws.packed, self.ways.courses.packed.first
-        is_timed = laws.is_timed.copy()
-        is_timed[list(self.timing.blocked)] = False
-        return len(self.timing.blocked), float(laws.arrive[first[1:] - 1][is_timed].sum())
+        """How many have no law, and when the others arrive, weighed by priority: less is better."""
+        weight = priority_weights([one.priority for one in self.ways.members])
+        arrivals = self.arrivals()
+        there = np.isfinite(arrivals)
+        return len(self.timing.blocked), float(weight[there] @ arrivals[there])
+
+    @property
+    def is_served_well(self) -> bool:
+        """Whether all robots are served, and little later than if they were alone."""
+        late = late_share(self.ways.rides, self.arrivals())
+        return not self.timing.blocked and late <= WELL_SERVED_SHARE
+
+    def arrivals(self) -> Floats:
+        """When each robot arrives; infinite for those that have no law [s], (n,)."""
+        arrivals = arrivals_of(self.ways.courses, self.timing.laws)
+        arrivals[list(self.timing.blocked)] = np.inf
+        return arrivals
 
     def last_arrival(self) -> float:
         """When the last robot that ends has arrived [s]; minus infinity if none is under way."""
@@ -315,30 +330,3 @@ class TimedFleet:
         ends = [not one.mission.route.is_patrol for one in self.ways.members]
         arrivals = laws.arrive[first[1:] - 1][laws.is_timed & np.array(ends, np.bool_)]
         return float(arrivals[np.isfinite(arrivals)].max(initial=-np.inf))
-
-
-def on_lattice(ways: FleetWays, separation: float) -> TimedFleet | NoLatticeOrder:
-    """Robots led over a lattice, all of them, where priority alone leaves some without a law.
-
-    Args:
-        ways: The paths that robots would drive alone.
-        separation: Free space between any two bodies [m].
-    """
-    plans = dict(zip(ways.courses.names, ways.planar, strict=True))
-    leaving = [one.name for one in ways.members if one.rest == "leave"]
-    order = lattice_order(plans, separation, leaving=leaving)
-    if isinstance(order, NoLatticeOrder):
-        return order
-    best: TimedFleet | None = None
-    for shape in SHAPES:
-        laid = order.paths(shape)
-        led = ways.along(laid.plans, separation)
-        steps = list(laid.steps.values())
-        timing = time_in_order(led.courses, led.crossings, led.rides, steps)
-        found = TimedFleet(led, timing)
-        if best is None or found.rank < best.rank:
-            best = found
-        if shape is SHAPES[0] and not best.blocked:
-            break
-    assert best is not None  # there are shapes
-    return best

@@ -10,9 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from viaspline.errors import GeometryError, PlanningError
-from viaspline.fleet.laying.lay_paths import not_served
 from viaspline.fleet.laying.relay import relay
-from viaspline.fleet.not_served import NotServed
+from viaspline.fleet.not_served import NotServed, not_served
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 

@@ -60,7 +60,7 @@ def plan_spatial_fleet(
         WorkersError: The workers died.
 
     Example:
-        >>> from viaspline.fleet.laying.lay_paths import THIS_PROCESS
+        >>> from viaspline.fleet.laying.laid_pieces import THIS_PROCESS
         >>> fleet = Fleet.model_validate({
         ...     "separation_m": 2, "robots": {"drone": {"radius_m": 0.4, "half_height_m": 0.2}},
         ...     "fleet": [

@@ -26,6 +26,21 @@ PRIORITY_WEIGHT = 2.0
 """What a second of a robot counts against one of a robot whose priority is less by one."""
 
 
+def priority_weights(priorities: Sequence[float]) -> Floats:
+    """What a second of each robot's lateness counts, (n,).
+
+    Args:
+        priorities: Who has more counts more, (n,).
+
+    Example:
+        >>> priority_weights([0.0, 2.0]).tolist()
+        [0.5, 2.0]
+    """
+    by_mean = np.array(priorities, float) - np.mean(priorities)
+    weights: Floats = PRIORITY_WEIGHT ** np.clip(by_mean, -20.0, 20.0)
+    return weights
+
+
 @dataclass(frozen=True, eq=False)
 class LawSearch:
     """A search for better laws.
@@ -63,10 +78,9 @@ class LawSearch:
             priorities: Who has more counts more, (n,).
             fixed: The robots whose laws stay as they are.
         """
-        by_mean = np.array(priorities, float) - np.mean(priorities)
         movable = np.ones(len(priorities), np.bool_)
         movable[list(fixed)] = False
-        weight = PRIORITY_WEIGHT ** np.clip(by_mean, -20.0, 20.0)
+        weight = priority_weights(priorities)
         state = np.array([SEED], np.int64)
         return cls(courses, crossings, passages, rides, weight, movable, state)
 

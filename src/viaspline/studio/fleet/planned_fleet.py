@@ -16,7 +16,7 @@ from pathlib import Path
 from viaspline.errors import MissionError, ViasplineError
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.plan_fleet import plan_by_priority, plan_fleet
+from viaspline.fleet.plan_fleet import is_settled_by_priority, plan_by_priority, plan_fleet
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.mission.world_spec import WorldSpec
 from viaspline.studio.document import Document
@@ -89,14 +89,14 @@ def planned_fleet(
         problems = (PlanFault(str(error)),)
     drawn = plan if plan is not None or before is None else before.drawn
     seconds = time.perf_counter() - start
-    is_whole = plan is None or not _has_blocked(plan, paths)
+    is_whole = plan is None or paths is None or is_settled_by_priority(plan, paths)
     return PlannedFleet(
         document, unfolded, fleet, plan, problems, seconds, missions, is_whole, paths, drawn
     )
 
 
 def wholly_planned(planned: PlannedFleet) -> PlannedFleet:
-    """Try everything for robots that priority alone leaves without a law.
+    """Try everything for robots that priority alone leaves without a law, or serves badly.
 
     That is the plan of the command line; it may take longer than a frame.
     """
@@ -106,11 +106,6 @@ def wholly_planned(planned: PlannedFleet) -> PlannedFleet:
     plan = plan_fleet(planned.fleet, paths=planned.paths)
     seconds = time.perf_counter() - start
     return replace(planned, plan=plan, drawn=plan, seconds=seconds, is_whole=True)
-
-
-def _has_blocked(plan: FleetPlan, paths: CrossingPaths | None) -> bool:
-    """Whether a robot that has a path couldn't be timed along it."""
-    return paths is not None and len(plan.plans) < len(paths.laid.plans)
 
 
 def _with_same_world(data: Document, before: PlannedFleet | None) -> Document:
