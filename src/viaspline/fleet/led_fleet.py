@@ -25,17 +25,15 @@ many there may be no way round, or long ones."""
 
 
 def led_at_once(fleet: Fleet, alone: AlonePaths) -> TimedFleet | None:
-    """Lead robots over a lattice if they rest so densely that paths round all rests are long.
+    """Lead the robots of a dense fleet over a lattice.
 
     Args:
         fleet: What is asked for.
-        alone: What each does if it is alone.
+        alone: What each does if it is alone; all have a path.
 
     Returns:
-        None if the fleet isn't so dense, or not all can be led so.
+        None if not all can be led so.
     """
-    if fleet.world.moving or not is_dense(fleet, alone):
-        return None
     led = led_fleet(fleet.members, alone.plans, fleet.separation_m)
     return None if isinstance(led, NoLatticeOrder) or led.blocked else led
 
@@ -74,9 +72,10 @@ def is_dense(fleet: Fleet, alone: AlonePaths) -> bool:
 
     Args:
         fleet: What is asked for.
-        alone: What each robot does if it is alone; all have a path.
+        alone: What each robot does if it is alone. One that has no path, or something that moves,
+            is nothing for a lattice.
     """
-    if len(alone.plans) < max(LEAST_LED, len(fleet.members)):
+    if fleet.world.moving or len(alone.plans) < max(LEAST_LED, len(fleet.members)):
         return False
     reaches = [alone.reach(fleet, one) for one in fleet.members]
     rests = all_rests(fleet.members, reaches, {})

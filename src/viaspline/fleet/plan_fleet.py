@@ -115,11 +115,13 @@ def plan_fleet(
         tell("laying paths", done / of)
 
     alone = _alone(fleet, paths, laying, workers)
-    led = None if alone is None else led_at_once(fleet, alone)
-    if led is not None:
-        led = _sooner(led, improve, improving)
-        tell("proving", 0.0)
-        return _planned(fleet, led, ())
+    if alone is not None and is_dense(fleet, alone):
+        tell("searching for an order", 0.0)
+        led = led_at_once(fleet, alone)
+        if led is not None:
+            led = _sooner(led, improve, improving)
+            tell("proving", 0.0)
+            return _planned(fleet, led, ())
     if paths is None:
         paths = crossing_paths(fleet, laying, workers=workers, alone=alone)
     tell("timing", 0.0)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.laying.alone_paths import AlonePaths
-from viaspline.fleet.led_fleet import LEAST_LED, led_at_once, led_fleet
+from viaspline.fleet.led_fleet import LEAST_LED, is_dense, led_at_once, led_fleet
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
@@ -50,8 +50,9 @@ def served_fleet(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> Ti
         paths: Of the very fleet.
         effort: What may be spent.
     """
-    kept = paths.laid.kept
-    led = None if kept is None else led_at_once(fleet, AlonePaths.of_kept(kept))
+    kept, led = paths.laid.kept, None
+    if kept is not None and is_dense(fleet, alone := AlonePaths.of_kept(kept)):
+        led = led_at_once(fleet, alone)
     return led or served_along(fleet, paths, effort)
 
 
