@@ -215,3 +215,23 @@ def test_three_laps_past_what_a_short_sight_finds_are_driven_to_their_end(seed: 
     run = simulate(rounds(seed))
     assert run.reached, run.reason
     assert run.replans
+
+
+def test_a_robot_that_never_turns_on_the_spot_searches_from_one_place_until_it_has_passed_it(
+    mission_of: Make, disc_at: Shape, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each step began anew, and what it had found by then was for a place that was passed."""
+    monkeypatch.setattr(deadline, "STEP_WORK_S", 4e-3)
+    rock = disc_at(25, 0.3, 3, "rock")
+    mission = mission_of(
+        [0, 0], [50, 0], unseen=[rock], min_turn_radius_m=2.5, turn_on_spot="never",
+        sensor={"range_m": 9},
+    )  # fmt: skip
+    settled = []
+    for nav in steps_of(mission):
+        pending = nav._state.schedule.pending
+        if pending is not None and pending.leave is not None:
+            assert pending.leave > nav.distance
+            settled.append(pending.leave)
+    assert len(settled) > 2 * len(set(settled))
+    assert nav.reached

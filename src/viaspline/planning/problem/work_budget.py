@@ -51,10 +51,9 @@ TREE_S, FIELD_CELL_S = 2e-3, 1e-7
 """Of a search among poses: to begin one, and for each cell of the lattice on which it is told how
 far it is to its goal [s],"""
 
-POSES_EFFORT_S, POSES_DISC_EFFORT_S = 2e-6, 8e-8
-"""for each distance to the world that is reckoned in it, each connection that is tried and each
-move that is done by a body of few discs, and that of each disc that covers it, if that is more [s].
-"""
+POSES_EFFORT_S = 2.5e-6
+"""for each distance to the world that is reckoned in it, as much for some that are looked up, for
+each connection that is tried and each move that is done [s]."""
 
 CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""

@@ -83,6 +83,8 @@ class PendingSearch:
         again: Under way it waits until then: it has tried all that it has time for [s].
         free_until: Up to this distance along the path it was certainly clear then [m].
         doubt: What it was found to pass on another side, if that is not decided yet.
+        leave: Where alone the path so far is left meanwhile [m], if that is settled: a robot that
+            never turns on the spot may have no way on from where it will stand.
     """
 
     since: float
@@ -93,6 +95,7 @@ class PendingSearch:
     again: float = -math.inf
     free_until: float = math.inf
     doubt: SideInDoubt | None = None
+    leave: float | None = None
 
     def with_new(self, new: World) -> PendingSearch:
         """The search with what has just been seen: that may bar what was tried, so it begins anew.
@@ -110,4 +113,5 @@ class PendingSearch:
             again=-math.inf,
             free_until=math.inf,
             doubt=None,
+            leave=None,
         )

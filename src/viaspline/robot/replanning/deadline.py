@@ -29,7 +29,8 @@ SHARES = (1.0, 0.5, 0.25)
 """Parts of that which are tried where the robot has to brake before."""
 
 ROOM_RATIO = 2.0
-"""So many required distances are left before what is in the way,"""
+"""So many required distances are left before what is in the way, and the radius of its circle by a
+robot that never turns on the spot,"""
 
 SPARE_RATIO = 0.5
 """and so much of one the place is known to."""
@@ -40,9 +41,12 @@ RETRY_INTERVAL_S = 0.3
 PAUSE_RATIO = 0.05
 """or after so much of the time until it is where it has to stop, if that is longer."""
 
-MAX_STANDING_WORK_S = 6.4
-"""What a robot that stands spends on a search in all. A step in which not even a part of it was
-over is followed by one that may spend twice as much."""
+MAX_STANDING_WORK_S = 64.0
+"""What a robot that stands spends on a search in all, as much as the longest plans take,"""
+
+MAX_PART_WORK_S = 3.2
+"""and on a part of it at most. A step in which not even a part of it was over is followed by one
+that may spend twice as much."""
 
 SPENT_AT_REST = (
     f"stands and has found no way on in the {MAX_STANDING_WORK_S:g} s of work that a search at "
@@ -103,15 +107,31 @@ def gone_on(
             pause = max(RETRY_INTERVAL_S, PAUSE_RATIO * left)
             begin_with, again, doubt = FIRST_STAGE, context.progress.time + pause, None
         so_far = SearchSoFar(STANDING_WORK_S, 0.0, world, budget.finished)
-        free = context.obstruction.free_until
-        return PendingSearch(since, obstacles, names, begin_with, so_far, again, free, doubt)
+        free, leave = context.obstruction.free_until, _settled_leave(context, again)
+        return PendingSearch(since, obstacles, names, begin_with, so_far, again, free, doubt, leave)
     spent = budget.spent + (0.0 if before is None else before.so_far.spent)
     is_further = budget.has_gained and (before is None or before.so_far.world is world)
     limit = max(budget.limit if is_further else 2.0 * budget.limit, STANDING_WORK_S)
-    if spent + limit > MAX_STANDING_WORK_S:
+    if limit > MAX_PART_WORK_S or spent + limit > MAX_STANDING_WORK_S:
         return None
     so_far = SearchSoFar(limit, spent, world, budget.finished)
     return PendingSearch(since, obstacles, names, begin_with, so_far, doubt=doubt)
+
+
+def _settled_leave(context: ReplanContext, again: float) -> float | None:
+    """Where a robot under way leaves its path if its search comes to something before [m].
+
+    A search from one place goes on from step to step; for one that turns on the spot where it
+    stands, that place will do. One that doesn't has to turn away before: it searches from halfway
+    there, and once it has passed that, from halfway again.
+
+    Args:
+        context: The robot that has searched.
+        again: When it goes on; later than now if it has tried all that it has time for [s].
+    """
+    if context.requirements.turns_at_rest or again > context.progress.time:
+        return None
+    return context.settled_leave or 0.5 * (context.leaves[0] + max(context.leaves))
 
 
 def is_paused(context: ReplanContext, free: float) -> bool:
@@ -141,7 +161,10 @@ def last_place(context: ReplanContext) -> float:
         context: The robot, that can stop before what is in its way.
     """
     low, high = context.stop, context.schedule.looked_at
-    held, room = context.schedule.held_at, ROOM_RATIO * context.requirements.required
+    held, needs = context.schedule.held_at, context.requirements
+    room = ROOM_RATIO * needs.required
+    if needs.turn_radius is not None and not needs.turns_at_rest:
+        room += needs.turn_radius
     if context.is_clear(high):  # what it passes on a wrong side is not too near
         high = max(low, context.obstruction.free_until)
     elif low <= held < high and context.is_clear(held + room):

@@ -157,7 +157,8 @@ def _laid(
 def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
     """With which stage a search goes on that was stopped at one.
 
-    One that had a step for itself isn't tried again, unless it is the last and the robot stands.
+    One that had a step for itself isn't tried again, unless it comes on from a settled place, or it
+    is the last and the robot stands.
 
     Args:
         stage: At which it was stopped.
@@ -168,6 +169,8 @@ def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
     assert budget is not None  # it has been spent
     had_most = before <= MAX_SHARE_BEFORE * budget.limit and budget.limit > 0.0
     if not had_most or (stage[0] == NEARBY and _comes_on_nearby(context)):
+        return stage
+    if stage[0] < NEARBY and context.settled_leave is not None and budget.has_gained:
         return stage
     if stage < LAST_STAGE:
         return (stage[0], stage[1] + 1)

@@ -167,6 +167,14 @@ class ReplanContext:
         return self.motion.leaves
 
     @property
+    def settled_leave(self) -> float | None:
+        """Where alone it may leave this one while its search goes on [m], while that is ahead."""
+        pending = self.schedule.pending
+        if pending is None or pending.leave is None or pending.leave < self.leaves[0]:
+            return None
+        return pending.leave
+
+    @property
     def work(self) -> float:
         """What its search has spent so far [s of the reference machine]."""
         budget = self.requirements.budget
@@ -260,10 +268,10 @@ class ReplanContext:
 
     def clear_leaves(self) -> list[float]:
         """Where a new path can leave this one while the robot rolls on [m]."""
-        turns = self.schedule.turns
+        turns, settled = self.schedule.turns, self.settled_leave
         return [
             leave
-            for leave in self.leaves
+            for leave in (self.leaves if settled is None else (settled,))
             if all(abs(turn - leave) > SAME_PLACE_M for turn in turns) and self.is_clear(leave)
         ]
 

@@ -287,12 +287,15 @@ def body_problem(requirements):
     return next(pose_problems(open_world(), requirements, RHO, RAMP, places, SEARCH_EFFORTS[-1]))
 
 
-def test_a_move_of_a_body_that_many_discs_cover_is_dearer():
-    ship = ((-5.0, -0.3), (5.0, -0.3), (5.0, 0.3), (-5.0, 0.3))
-    thin = dataclasses.replace(CAR, radius=0.3, clearance=0.0, footprint=ship)
-    many, one = body_problem(thin), body_problem(DISC)
-    assert len(many.search_window.body.discs) > 50
-    assert many.effort_s > 2.0 * one.effort_s
+def test_a_search_turns_round_at_a_gap_that_is_too_narrow_without_seeing_all_before_it():
+    side = 2.0 * DISC.required - 0.06
+    low, high = -0.5 * side, 0.5 * side
+    shut = World(
+        [box(9.5, -15.0, 10.0, low), box(9.5, high, 10.0, 30.0)], bounds=(-20, -15, 40, 40)
+    )
+    found = find_poses(shut, DISC, RHO, RAMP, Pose(0, 0, 0), Goal(25.0, 0.0))
+    assert isinstance(found, Chain)
+    assert found.expanded < 20_000
 
 
 def test_a_body_is_looked_at_no_more_finely_than_what_is_kept_round_it_asks_for():

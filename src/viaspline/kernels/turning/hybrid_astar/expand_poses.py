@@ -19,7 +19,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.heap import pop
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.turning.collision_cache import CollisionCache, reach
+from viaspline.kernels.turning.collision_cache import LOOKED_UP, RECKONED, CollisionCache, reach
 from viaspline.kernels.turning.connect import MAX_SEGMENTS
 from viaspline.kernels.turning.hybrid_astar.goal_arrival import arrive, meet
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
@@ -54,6 +54,7 @@ from viaspline.kernels.turning.hybrid_astar.primitives import (
 )
 
 RUNNING, FULL, EMPTY, BEATEN = range(4)
+LOOK_UPS = 5  # of distances in tables take as long as one that is reckoned, or as a move
 
 
 @kernel
@@ -136,7 +137,8 @@ def _expand(
 @inner
 def _done(cache: CollisionCache, search: PoseSearch) -> int:
     """What was done so far, in what takes about the same time: see ``effort``."""
-    return cache.reckoned[0] + search.counts[TRIED] + WAYS * search.counts[EXPANDED]
+    looked_at = cache.reckoned[RECKONED] + cache.reckoned[LOOKED_UP] // LOOK_UPS
+    return looked_at + search.counts[TRIED] + WAYS * search.counts[EXPANDED]
 
 
 @kernel

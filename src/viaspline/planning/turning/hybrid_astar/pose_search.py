@@ -15,14 +15,13 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
-from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE
+from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE, Ahead
 from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
 from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import (
     CHAIN_SEGMENT_S,
     FIELD_CELL_S,
-    POSES_DISC_EFFORT_S,
     POSES_EFFORT_S,
     TREE_S,
 )
@@ -92,18 +91,6 @@ class PoseProblem:
     room: int
     requirements: Requirements
 
-    @property
-    def effort_s(self) -> float:
-        """What an effort of a search takes, the longer the more discs cover the body [s]."""
-        return max(POSES_EFFORT_S, POSES_DISC_EFFORT_S * len(self.search_window.body.discs))
-
-    @property
-    def tree_s(self) -> float:
-        """What it takes to begin a search [s]."""
-        window = self.search_window
-        fields = 2 if len(window.barriers) else 1
-        return TREE_S + FIELD_CELL_S * fields * window.cells.size
-
     def closed_by(self, barriers: Floats) -> PoseProblem:
         """This problem with segments that the reference point must not cross [m], (b, 4)."""
         return replace(self, search_window=self.search_window.closed_by(barriers))
@@ -118,7 +105,7 @@ class PoseProblem:
         Raises:
             SpentBudgetError: When less is left.
         """
-        self.requirements.spend_on_part(self.effort_s * tree.effort)
+        self.requirements.spend_on_part(POSES_EFFORT_S * tree.effort)
         tree.go_on(other)
 
     def forwards(
@@ -126,11 +113,12 @@ class PoseProblem:
     ) -> SearchTree:
         """A search from some poses to the goal."""
         place = np.array([goal.x, goal.y])
-        self.requirements.spend(self.tree_s)
+        self.requirements.spend(TREE_S)
         return SearchTree(
             self.search_window,
             self.search_window.cache,
             self.moves,
+            self._ahead(place),
             starts,
             place,
             headings,
@@ -142,18 +130,31 @@ class PoseProblem:
         """A search from the goal to the start, as of a robot that drives backwards."""
         starts = np.zeros((len(headings), 4))
         starts[:, 0], starts[:, 1], starts[:, 2] = goal.x, goal.y, headings + math.pi
-        self.requirements.spend(self.tree_s)
+        self.requirements.spend(TREE_S)
         place, back = np.array([start.x, start.y]), np.array([start.heading + math.pi])
         return SearchTree(
             self.search_window,
             self.search_window.cache_back,
             self.moves,
+            self._ahead(place),
             starts,
             place,
             back,
             self.room,
             SHARE_AFTER_ARRIVAL,
         )
+
+    def _ahead(self, place: Floats) -> Ahead:
+        """How far it is to a place (2,) from everywhere: the same from wherever a search begins."""
+        window = self.search_window
+        asked = (window.world, window.area, window.side, window.barriers.tobytes(), *place.tolist())
+
+        def told() -> Ahead:
+            fields = 2 if len(window.walls) else 1
+            self.requirements.spend(FIELD_CELL_S * fields * window.cells.size)
+            return window.ahead(place[None])
+
+        return self.requirements.once(("ahead", *asked), told)
 
 
 def prepare_body(requirements: Requirements) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.planning.problem.work_budget import POSES_EFFORT_S, WorkBudget
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     HEADING_SECTORS,
     SEARCH_EFFORTS,
@@ -168,7 +168,7 @@ def _is_shut_in(problem: PoseProblem, start: Pose, goal: Goal, budget: WorkBudge
     if not goal.headings or not len(headings) or not problem.search_window.area.is_whole:
         return False
     back = problem.backwards(start, goal, headings)
-    if not budget.affords(problem.effort_s * back.effort):
+    if not budget.affords(POSES_EFFORT_S * back.effort):
         return False
     problem.go_on(back)
     return back.state == EMPTY
@@ -198,7 +198,7 @@ def _grown(
         Whether the goal can't be come to from anywhere, and how many states were looked at.
     """
     back: SearchTree | None = None
-    while not tree.is_over and budget.affords(problem.effort_s * tree.effort):
+    while not tree.is_over and budget.affords(POSES_EFFORT_S * tree.effort):
         problem.go_on(tree)
         if tree.has_arrived or tree.expanded < DOUBT_STATES:
             continue
@@ -208,7 +208,7 @@ def _grown(
                 ("back", *asked),
                 partial(problem.backwards, Pose(*start[:3].tolist()), goal, from_all),
             )
-        if not budget.affords(problem.effort_s * back.effort):
+        if not budget.affords(POSES_EFFORT_S * back.effort):
             break
         problem.go_on(back)
         if back.state == EMPTY and problem.search_window.area.is_whole:

@@ -32,7 +32,7 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
 from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, STEP, MotionPrimitives
 from viaspline.planning.turning.hybrid_astar.search_window import SearchWindow
 
-FIRST_SLICE, SLICE = 1000, 5000  # efforts between which a search can be stopped
+FIRST_SLICE, SLICE = 1000, 2500  # efforts between which a search can be stopped
 MOST_STATES = 1 << 40  # more than any search has
 LEAST_STATES_BEFORE = 800  # that count as those before the first arrival
 MAX_SPREAD_STATES = 3000  # of which some are chosen
@@ -71,7 +71,7 @@ class SearchTree:
 
     def __init__(
         self, search_window: SearchWindow, cache: CollisionCache, moves: MotionPrimitives,
-        starts: Floats, goal: Floats, headings: Floats, room: int, after: float,
+        ahead: Ahead, starts: Floats, goal: Floats, headings: Floats, room: int, after: float,
     ) -> None:  # fmt: skip
         """Begin.
 
@@ -79,6 +79,7 @@ class SearchTree:
             search_window: Where.
             cache: Its collision cache, for one direction of driving.
             moves: What the robot can do.
+            ahead: How far it is to the goal.
             starts: x, y, heading, cost so far, (n, 4).
             goal: x, y [m], (2,).
             headings: Those that are allowed there [rad], NaN for whichever comes straight, (h,).
@@ -87,7 +88,7 @@ class SearchTree:
                 before it and of ``LEAST_STATES_BEFORE``.
         """
         self.cache, self.moves = cache, moves
-        self.ahead: Ahead = search_window.ahead(goal[None])
+        self.ahead = ahead
         self.search = _empty(search_window, moves, starts, goal, headings, room)
         self._nobody = _empty(search_window, moves, starts, goal, headings, 1)
         self.state = kernels.RUNNING
@@ -100,7 +101,9 @@ class SearchTree:
         """As far as it came: it and this one go on each by itself."""
         tree = copy(self)
         tree.cache = self.cache._replace(
-            known=self.cache.known.copy(), reckoned=self.cache.reckoned.copy()
+            known=self.cache.known.copy(),
+            coarse=self.cache.coarse.copy(),
+            reckoned=self.cache.reckoned.copy(),
         )
         search, count = self.search, int(self.search.counts[NODES])
         keys, nodes, size = search.heap

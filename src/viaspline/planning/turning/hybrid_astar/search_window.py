@@ -15,6 +15,7 @@ import numpy as np
 from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.routing.distance_field import distance_field
 from viaspline.kernels.turning.collision_cache import (
+    COARSE_CELLS,
     HALF_DIAGONAL_CELLS,
     KEPT,
     CollisionCache,
@@ -23,13 +24,17 @@ from viaspline.kernels.turning.collision_cache import (
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import Ahead
 from viaspline.kernels.world.rasterize import mark_segments, rasterized
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.routing.gap_graph import GapGraph
 from viaspline.planning.turning.hybrid_astar.disc_cover import covering_discs
 from viaspline.world.world import World
 
 Box = tuple[float, float, float, float]
 
 HEURISTIC_WEIGHT = 1.3  # by how much what is still to come counts more than what has been
+FINE_CELL_RADII = 0.25  # side of a cell of a fine lattice, in distances that the body keeps: where
+# a gap that is too narrow looks open, a search sees all before it before it turns round
 MAX_CELLS_ALONG = 400  # of the lattice, along a window's longer side
+MAX_GAP_OBSTACLES = 1000  # in a window, whose gaps are measured
 MAX_TABLE_CELLS_ALONG = 1000  # of the table of distances, along it too
 LOOKED_AT_SPACING = 0.02  # between places that are looked at, in half widths of the body,
 FINEST_SPACING = 2e-4  # and in least radii, for a body that is no more than a point
@@ -169,7 +174,8 @@ class SearchWindow:
         if not len(barriers) and not len(self.barriers):
             return self
         window = replace(self, barriers=np.ascontiguousarray(barriers))
-        shared = {"cells": self.cells, "cache": self.cache._replace(barriers=window.barriers)}
+        cache = self.cache._replace(barriers=window.barriers)
+        shared = {"cells": self.cells, "narrow_gaps": self.narrow_gaps, "cache": cache}
         vars(window).update(shared)  # what ``cached_property`` would find out anew
         return window
 
@@ -177,7 +183,13 @@ class SearchWindow:
     def side(self) -> float:
         """Side of a cell of the lattice [m]."""
         x0, y0, x1, y1 = self.area.box
-        return max(self.cell, max(x1 - x0, y1 - y0) / MAX_CELLS_ALONG)
+        wanted = min(self.cell, FINE_CELL_RADII * self.body.inner)
+        return max(wanted, max(x1 - x0, y1 - y0) / MAX_CELLS_ALONG)
+
+    @cached_property
+    def is_fine(self) -> bool:
+        """Whether a way that passes near to a blocked cell of the lattice can pass beside it."""
+        return self.side <= FINE_CELL_RADII * self.body.inner * (1.0 + 1e-9)
 
     @cached_property
     def pace(self) -> float:
@@ -196,13 +208,29 @@ class SearchWindow:
         return cells
 
     @cached_property
+    def narrow_gaps(self) -> Floats:
+        """Segments across gaps that the reference point doesn't get through [m], (n, 4).
+
+        None where cells are too coarse for them, among too many things, and on maps.
+        """
+        near = self.world.near(self.area.box) if self.is_fine else World()
+        if not 0 < len(near) <= MAX_GAP_OBSTACLES or near.are_maps.any():
+            return np.empty((0, 4))
+        return np.ascontiguousarray(GapGraph.of(near, 2.0 * self.body.inner).links.feet)
+
+    @cached_property
+    def walls(self) -> Floats:
+        """All segments that no way leads across [m], (n, 4)."""
+        return np.concatenate((self.barriers, self.narrow_gaps))
+
+    @cached_property
     def walled(self) -> Bytes:
-        """The lattice with the cells blocked that barriers pass through."""
-        if not len(self.barriers):
+        """The lattice with the cells blocked that walls pass through."""
+        if not len(self.walls):
             return self.cells
         cells = self.cells.copy()
         x0, y0 = self.area.box[:2]
-        mark_segments(self.barriers, x0, y0, self.side, cells)
+        mark_segments(self.walls, x0, y0, self.side, cells)
         return cells
 
     @cached_property
@@ -221,9 +249,10 @@ class SearchWindow:
             self.world.packed,
             frame,
             np.zeros(shape),
+            np.zeros([math.ceil(count / COARSE_CELLS) for count in shape]),
             self.body.rows(self.rho, 1.0),
             self.barriers,
-            np.zeros(1, np.int64),
+            np.zeros(2, np.int64),
         )
 
     @cached_property
@@ -253,19 +282,21 @@ class SearchWindow:
         x0, y0 = self.area.box[:2]
         found = np.floor((places[:, ::-1] - (y0, x0)) / self.side).astype(np.int64)
         lengths = distance_field(self.cells, np.ascontiguousarray(found))
-        if len(self.barriers):
-            lengths = self._round_barriers(lengths, np.ascontiguousarray(found))
+        if len(self.walls):
+            lengths = self._round_walls(lengths, np.ascontiguousarray(found))
         return Ahead(np.array([x0, y0, self.side, HEURISTIC_WEIGHT]), lengths)
 
-    def _round_barriers(self, lengths: Floats, found: Ints) -> Floats:
-        """The lengths of ways round the barriers too, where cells can tell them.
+    def _round_walls(self, lengths: Floats, found: Ints) -> Floats:
+        """The lengths of ways round the walls too, where cells can tell them.
 
         Args:
-            lengths: Those without barriers.
+            lengths: Those without walls.
             found: Row and column of the places that the ways lead to, (n, 2).
         """
         longer = distance_field(self.walled, found)
         longer = np.where(self.walled != self.cells, _least_beside(longer), longer)
+        if self.is_fine and not self.area.is_whole:
+            return longer  # what it doesn't tell, a greater window does
         return np.where(np.isfinite(longer), longer, lengths)
 
 
