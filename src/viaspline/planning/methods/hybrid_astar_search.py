@@ -33,7 +33,7 @@ class HybridAStar:
     """
 
     efforts: Sequence[Effort] = SEARCH_EFFORTS
-    max_poses_s: float = 6.0
+    max_poses_s: float = 12.0
 
     def lay(self, problem: TurnProblem, bound: float = math.inf) -> Outcome[SplinePath]:
         """See ``Method``."""
