@@ -118,6 +118,12 @@ def lidar(**changes: Any) -> dict[str, Any]:
         ("route.via.0", [90, "x"], "route.via[0].at[1]", 'the text "x"'),
         ("route.via.0", [50, 250], "route.via[0].at", "same place as route.start"),
         ("route.via.0", [50, 250 + 5e-7], "route.via[0].at", "to within 5e-07 m"),
+        (
+            "route",
+            {"start": [5, 250], "via": [[50, 250], [90, 330], [50, 250]], "order": "shortest"},
+            "route.via[2].at",
+            "same place as route.via[0], and the shortest order serves one right after the other",
+        ),
         ("route.goal", {"at": [3, 300], "name": "pump"}, "route.goal.name", "'pump' is taken"),
         ("route.goal", [350, 498.2], "route.goal.at", "0.2 m inside the clearance of fence"),
         ("route.goal", [497.6, 300], "route.goal.at", ""),

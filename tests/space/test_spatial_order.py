@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise, permutations
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
+from viaspline.errors import NoPathError
 from viaspline.mission.model import Mission
 from viaspline.space.spatial_order import ordered_in_space
 
@@ -84,6 +88,75 @@ def test_a_landing_counts_with_what_it_descends() -> None:
 def test_via_points_keep_the_names_of_their_places_in_the_given_order() -> None:
     asked = mission([(0, 0, 5), (30, 0, 5), (10, 0, 5), (40, 0, 5)])
     assert [via.name for via in ordered_in_space(asked).route.via] == ["via 2", "via 1"]
+
+
+GATES = st.lists(
+    st.tuples(st.integers(0, 60), st.integers(0, 60), st.integers(3, 40), st.integers(-170, 180),
+              st.booleans()),
+    min_size=1, max_size=5, unique_by=lambda row: row[:2],
+)  # fmt: skip
+
+
+def asked_through(rows: list[tuple[int, int, int, int, bool]], **route: object) -> Mission:
+    """A flight in the best order through places and gates, each x, y, z, facing, whether a gate."""
+    via = [
+        {"gate": {"at": [x, y, z], "facing_deg": facing, "width_m": 3, "height_m": 3}}
+        if is_gate
+        else {"at": [x, y, z]}
+        for x, y, z, facing, is_gate in rows
+    ]
+    whole = {"start": [-9, -9, 9], "via": via, "order": "shortest", **route}
+    return Mission.model_validate({"robot": {"radius_m": 0.3}, "route": whole})
+
+
+@settings(max_examples=15)
+@given(rows=GATES, closed=st.booleans(), objective=st.sampled_from(["length", "time"]))
+def test_what_is_planned_through_gates_in_the_best_order_is_a_sound_mission_and_exported(
+    rows: list[tuple[int, int, int, int, bool]], closed: bool, objective: str, tmp_path_factory: Any
+) -> None:
+    ends = {"closed": True} if closed else {"goal": [70, 20, 9]}
+    try:
+        plan = vs.plan(asked_through(rows, optimise=objective, **ends))
+    except (vs.MissionError, NoPathError):
+        assert any(is_gate for *_, is_gate in rows)  # which every order passes backwards
+        return
+    written = plan.mission.model_dump(mode="json", exclude_unset=True)
+    assert Mission.model_validate(written) == plan.mission
+    vs.export(plan, tmp_path_factory.mktemp("order") / "flight.csv")
+
+
+def test_what_is_planned_through_gates_in_the_best_order_can_be_saved_and_loaded(
+    tmp_path: Path,
+) -> None:
+    rows = [(25, 0, 5, 0, False), (10, 0, 5, 180, True)]
+    plan = vs.plan(asked_through(rows, goal=[40, 0, 5]))
+    plan.save(tmp_path)
+    assert vs.load_plan(tmp_path) == plan
+
+
+def test_gates_that_no_order_passes_forwards_are_refused_by_name() -> None:
+    def gate(x: float, y: float, facing: float) -> dict[str, object]:
+        return {"gate": {"at": [x, y, 5], "facing_deg": facing, "width_m": 3, "height_m": 3}}
+
+    # Each would do, were the other one passed on the right side of it.
+    route = {"start": [50, 50, 5], "via": [gate(0, 60, 90), gate(30, 70, 180)],
+             "goal": [80, 10, 5], "order": "shortest"}  # fmt: skip
+    with pytest.raises(NoPathError, match="every order of the via points passes a gate backwards"):
+        ordered_in_space(Mission.model_validate({"robot": {"radius_m": 0.3}, "route": route}))
+
+
+def test_gates_among_very_many_via_points_are_passed_forwards() -> None:
+    rng = np.random.default_rng(7)
+    via = [
+        {"gate": {"at": [*at, 9], "facing_deg": float(facing), "width_m": 3, "height_m": 3}}
+        for at, facing in zip(
+            rng.uniform(0, 200, (60, 2)).tolist(), rng.uniform(-180, 180, 60), strict=True
+        )
+    ]
+    route = {"start": [0, 0, 9], "via": via, "goal": [210, 0, 9], "order": "shortest"}
+    asked = Mission.model_validate({"robot": {"radius_m": 0.3}, "route": route})
+    given = ordered_in_space(asked).model_dump(mode="json", exclude_defaults=True)
+    assert Mission.model_validate(given).route.order == "given"  # or a gate would face away
 
 
 def test_a_given_order_is_kept() -> None:

@@ -45,6 +45,7 @@ class PartialMission:
         edge: Paths of the bounds or the fence that maps brought.
         corridor: What the route is to stay inside of; None if there is none, or it is faulty.
         laps: How often a closed route is driven; 1 if that can't be said.
+        in_given_order: Whether the via points are served in the order in which they are given.
         robot_path: Where the robot stands in what was given.
         space: What there is in space only; None for a planar mission.
     """
@@ -62,6 +63,7 @@ class PartialMission:
     edge: frozenset[Path] = frozenset()
     corridor: Corridor | None = None
     laps: int = 1
+    in_given_order: bool = True
     robot_path: Path = ("robot",)
     space: SpatialParts | None = None
 
@@ -91,6 +93,7 @@ class PartialMission:
             edge=resolved.edge,
             corridor=route.corridor,
             laps=route.laps,
+            in_given_order=route.order == "given",
             space=SpatialParts.of(mission, resolved.unread),
         )
 
@@ -124,6 +127,7 @@ class PartialMission:
             edge=resolved.edge,
             corridor=_attempt(Corridor, route.get("corridor")),
             laps=laps if isinstance(laps, int) else 1,
+            in_given_order=route.get("order", "given") == "given",
             space=SpatialParts.salvage(top, resolved.unread),
         )
 

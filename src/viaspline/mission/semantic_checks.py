@@ -8,12 +8,11 @@ from __future__ import annotations
 import math
 from collections import Counter
 from dataclasses import replace
-from itertools import pairwise
-from typing import Final
 
 from viaspline.mission.drives.drive import DRIVE_KINDS
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.route_spec import MAX_POINTS_DRIVEN, ViaPoint
+from viaspline.mission.same_places import SAME_POINT_M, PointPlace, same_place_faults
 from viaspline.mission.spline_spec import (
     LOOSEST_SLACK,
     LOOSEST_TENSION,
@@ -22,9 +21,6 @@ from viaspline.mission.spline_spec import (
     SplineSpec,
 )
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
-
-SAME_POINT_M: Final = 1e-6
-"""Points of the route nearer to each other than this are one point."""
 
 
 def semantic_faults(partial: PartialMission) -> list[UnplacedFault]:
@@ -193,33 +189,14 @@ def _route(partial: PartialMission) -> list[UnplacedFault]:
 
 
 def _same_places(partial: PartialMission) -> list[UnplacedFault]:
-    faults = []
-    for (before, a), (path, b) in pairwise(partial.points):
-        if (gap := _distance(a, b)) < SAME_POINT_M:
-            faults.append(same_place(path, before, gap))
-    if partial.closed and not partial.has_goal and len(partial.points) > 1:
-        (start, a), (path, b) = partial.points[0], partial.points[-1]
-        if (gap := _distance(a, b)) < SAME_POINT_M and len(partial.points) > 2:
-            problem = f"is the same place as {spell(start)}, to which a closed route returns anyway"
-            faults.append(UnplacedFault((*path, "at"), problem, "leave it out"))
-    return faults
-
-
-def same_place(path: Path, before: Path, gap: float) -> UnplacedFault:
-    """The fault of a point that is where the one before it is.
-
-    Args:
-        path: The point.
-        before: The one before it.
-        gap: How far they are apart [m].
-    """
-    apart = "exactly" if gap == 0 else f"to within {gap:.1g} m"
-    return UnplacedFault(
-        (*path, "at"),
-        f"is {apart} the same place as {spell(before)}, just before it: the route needs distinct "
-        "points",
-        "leave out one of the two (dwell_s makes the robot wait there)",
-    )
+    places = [
+        PointPlace(path, point.at, rank)
+        for rank, (path, point) in enumerate(partial.points)
+        if point is not None
+    ]
+    closed = bool(partial.closed) and not partial.has_goal
+    found = same_place_faults(places, in_given_order=partial.in_given_order, closed=closed)
+    return list(found)
 
 
 def _distance(a: ViaPoint | None, b: ViaPoint | None) -> float:

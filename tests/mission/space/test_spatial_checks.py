@@ -125,11 +125,17 @@ ONE_FAULT: list[tuple[dict[str, Any], str, str]] = [
     ({"route__via": [{"gate": {**GATE, "at": [120, 120, 20]}}]}, "route.via[0].gate.at",
      "the gate lies inside obstacle 'hall'"),
     ({"route__land": None, "route__goal": {"gate": GATE}}, "route.goal.gate", "can't be a gate"),
+    ({"route__via": [{"gate": {**GATE, "facing_deg": 200}}],
+      "route__order": "shortest"}, "route.via[0].gate.facing_deg", "faces away"),
     # What contradicts.
     ({"route__goal": [9, 9, 9]}, "route.land", "leave out goal"),
     ({"route__closed": True}, "route.land", "a closed route ends at its start"),
     ({"route__via": [[0, 0, 10]]}, "route.via[0].at", "same place as the end of take-off"),
     ({"route__via": [[9, 9, 9], [9, 9, 9]]}, "route.via[1].at", r"same place as route.via\[0\]"),
+    ({"route__via": [[9, 9, 9], [9, 0, 9], [0, 0, 10]], "route__order": "shortest"},
+     "route.via[2].at", "same place as the end of take-off, and the shortest order"),
+    ({"route__via": [[9, 9, 9], [0, 0, 10]], "route__land": None, "route__closed": True},
+     "route.via[1].at", "same place as the end of take-off, to which a closed route returns"),
 ]  # fmt: skip
 
 
@@ -140,6 +146,21 @@ def test_each_mistake_is_one_fault_with_its_remedy(
     (told,) = faults_of(mission(**changes))
     assert told.startswith(f"{key}: ")
     assert re.search(words, told), told
+
+
+@pytest.mark.parametrize(
+    "route",
+    [
+        {"route__via": [{"gate": {**GATE, "facing_deg": 180}}, [450, 0, 20]],
+         "route__order": "shortest", "route__land": [150, 0]},
+        {"route__via": [[300, 9, 20], {"gate": {**GATE, "facing_deg": 0}}],
+         "route__land": None, "route__closed": True, "route__start": [250, 0]},
+    ],
+)  # fmt: skip
+def test_a_gate_that_some_order_or_the_way_home_passes_forwards_is_sound(
+    route: dict[str, Any],
+) -> None:
+    Mission.model_validate(mission(**route))
 
 
 TERRAIN: list[tuple[dict[str, Any], str, str]] = [

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator, Sequence
 
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.mission.shapes.solids import Place
 from viaspline.mission.space.gate_spec import GateSpec
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
@@ -36,25 +35,27 @@ def narrow_faults(path: Path, gate: GateSpec, robot: RobotSpec) -> Iterator[Unpl
 
 
 def facing_faults(
-    path: Path, gate: GateSpec, before: Sequence[Place], behind: Sequence[Place]
+    path: Path,
+    gate: GateSpec,
+    before: Sequence[tuple[float, ...]],
+    behind: Sequence[tuple[float, ...]],
 ) -> Iterator[UnplacedFault]:
-    """A gate that faces away from the route, which comes from behind it and leaves there as well.
+    """A gate that faces away from the route, which comes from ahead of it and leaves behind it.
 
     Args:
         path: The point.
         gate: Its gate.
-        before: The place before it; none if it isn't known.
-        behind: The place after it; none if it isn't known.
+        before: The places that may come before it; none if none is known.
+        behind: Those that may come after it.
 
     >>> gate = GateSpec(at=(5, 0, 5), facing_deg=170, width_m=2, height_m=1.5)
     >>> [fault] = facing_faults((), gate, [(0, 0, 5)], [(9, 0, 5)])
     >>> fault.remedy
     'turn it round: facing_deg: -10; or give a via point in front of it'
     """
-    angle = math.radians(gate.facing_deg)
-    x, y, _ = gate.at
-    along = [(x - u, y - v) for u, v, _ in before] + [(u - x, v - y) for u, v, _ in behind]
-    forward = [dx * math.cos(angle) + dy * math.sin(angle) for dx, dy in along]
+    (x, y, _), (east, north) = gate.at, gate.way
+    along = [(x - u, y - v) for u, v, *_ in before] + [(u - x, v - y) for u, v, *_ in behind]
+    forward = [dx * east + dy * north for dx, dy in along]
     if forward and max(forward) < 0:
         turned = (gate.facing_deg + 360.0) % 360.0 - 180.0
         remedy = f"turn it round: facing_deg: {number(turned)}; or give a via point in front of it"

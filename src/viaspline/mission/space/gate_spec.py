@@ -5,6 +5,8 @@ Tested through ``mission/space/test_spatial_keys``.
 
 from __future__ import annotations
 
+import math
+
 from viaspline.mission.fields import Heading, Length, Point3
 from viaspline.mission.value import Value
 
@@ -29,3 +31,9 @@ class GateSpec(
     facing_deg: Heading
     width_m: Length
     height_m: Length
+
+    @property
+    def way(self) -> tuple[float, float]:
+        """The level unit vector of the direction that it faces."""
+        angle = math.radians(self.facing_deg)
+        return math.cos(angle), math.sin(angle)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
-from itertools import pairwise
-from typing import NamedTuple
 
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.same_places import PointPlace, same_place_faults
 from viaspline.mission.shapes.solids import Place
 from viaspline.mission.space.altitude_checks import altitude_faults
 from viaspline.mission.space.flight_places import ground_height, place_of, standing_height
@@ -18,18 +17,7 @@ from viaspline.mission.space.place_checks import PlaceChecks, point_label
 from viaspline.mission.space.planar_keys import planar_key_faults
 from viaspline.mission.space.point_heights import START, point_height_faults
 from viaspline.mission.space.spatial_parts import SpatialParts
-from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
-
-SAME_PLACE_M = 1e-6
-"""Places of the route nearer to each other than this are one place."""
-
-
-class _Stop(NamedTuple):
-    """A place of the route in order, where it is said, and its number among the points."""
-
-    path: Path
-    place: Place
-    rank: int
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
 
 def spatial_faults(
@@ -53,7 +41,9 @@ def spatial_faults(
             told.update(fault.path for fault in found)
             faults += found
     stops = list(_stops(partial, space))
-    return [*faults, *_same_places(stops), *_gates(partial, space, stops)]
+    closed = bool(partial.closed) and not partial.has_goal
+    faults += same_place_faults(stops, in_given_order=partial.in_given_order, closed=closed)
+    return [*faults, *_gates(partial, space, stops)]
 
 
 def _home(partial: PartialMission, space: SpatialParts) -> float:
@@ -118,7 +108,7 @@ def _low_takeoff(partial: PartialMission, space: SpatialParts) -> Iterator[Unpla
         yield UnplacedFault(path, f"{problem}it begins", f"give {least} or more")
 
 
-def _stops(partial: PartialMission, space: SpatialParts) -> Iterator[_Stop]:
+def _stops(partial: PartialMission, space: SpatialParts) -> Iterator[PointPlace]:
     """The places of the route in order, those left out whose height isn't known."""
     for i, (path, point) in enumerate(partial.points):
         if point is None:
@@ -129,33 +119,35 @@ def _stops(partial: PartialMission, space: SpatialParts) -> Iterator[_Stop]:
                 z = _home(partial, space) + space.takeoff.to_agl_m
             path = ("route", "takeoff")
         if not math.isnan(z):
-            yield _Stop(path, (x, y, z), i)
-
-
-def _same_places(stops: list[_Stop]) -> Iterator[UnplacedFault]:
-    for before, stop in pairwise(stops):
-        gap = math.dist(before.place, stop.place)
-        if stop.rank != before.rank + 1 or gap >= SAME_PLACE_M:
-            continue
-        name = "the end of take-off" if before.path[-1] == "takeoff" else spell(before.path)
-        apart = "exactly" if gap == 0 else f"to within {number(gap, 9)} m"
-        problem = f"is {apart} the same place as {name}, just before it: the route needs distinct "
-        remedy = "leave out one of the two (dwell_s makes the robot wait there)"
-        yield UnplacedFault((*stop.path, "at"), f"{problem}points", remedy)
+            yield PointPlace(path, (x, y, z), i)
 
 
 def _gates(
-    partial: PartialMission, space: SpatialParts, stops: list[_Stop]
+    partial: PartialMission, space: SpatialParts, stops: list[PointPlace]
 ) -> Iterator[UnplacedFault]:
-    order = {stop.rank: k for k, stop in enumerate(stops)}
-    last = [] if space.land is None else [(*space.land.at, 0.0)]
-    for i, (path, point) in enumerate(partial.points):
-        if point is None or point.gate is None or i not in order:
+    """Gates that are too narrow, or are passed backwards wherever the order puts them."""
+    places = {stop.rank: stop.place for stop in stops}
+    end: list[tuple[float, ...]] = [] if space.land is None else [space.land.at]
+    if partial.closed:
+        end = [places[rank] for rank in (0,) if rank in places]
+    for rank, (path, point) in enumerate(partial.points):
+        if point is None or point.gate is None or rank not in places:
             continue
         if partial.robot is not None:
             yield from narrow_faults(path, point.gate, partial.robot)
-        if space.in_given_order:
-            k = order[i]
-            before = [stop.place for stop in stops[max(k - 1, 0) : k]]
-            behind = [stop.place for stop in stops[k + 1 : k + 2]] or last
-            yield from facing_faults(path, point.gate, before, behind)
+        before, behind = _beside(partial, rank)
+        if places.keys() >= {*before, *behind}:
+            ends = [] if partial.in_given_order and behind else end
+            follow = [*(places[k] for k in behind), *ends]
+            yield from facing_faults(path, point.gate, [places[k] for k in before], follow)
+
+
+def _beside(partial: PartialMission, rank: int) -> tuple[list[int], list[int]]:
+    """The points that may come right before one, and right after it."""
+    count = len(partial.points)
+    if partial.in_given_order:
+        return list(range(max(rank - 1, 0), rank)), list(range(rank + 1, min(rank + 2, count)))
+    vias = range(1, count - int(partial.has_goal))
+    goal = [count - 1] if partial.has_goal else []
+    others = [k for k in vias if k != rank]
+    return [0, *others], [*others, *goal]

@@ -38,7 +38,6 @@ class SpatialParts:
         has_takeoff: Whether it takes off, soundly or not.
         land: Where it lands; None if it doesn't, or that is faulty.
         has_land: Whether it lands, soundly or not.
-        in_given_order: Whether the via points are served in the order in which they are given.
         planar_keys: Keys that were given though they mean something in the plane only.
     """
 
@@ -49,7 +48,6 @@ class SpatialParts:
     has_takeoff: bool = False
     land: Landing | None = None
     has_land: bool = False
-    in_given_order: bool = True
     planar_keys: tuple[Path, ...] = ()
 
     @classmethod
@@ -71,7 +69,6 @@ class SpatialParts:
             has_takeoff=route.takeoff is not None,
             land=route.land,
             has_land=route.land is not None,
-            in_given_order=route.order == "given",
             planar_keys=tuple(planar_keys_of(parts)),
         )
 
@@ -95,7 +92,6 @@ class SpatialParts:
             has_takeoff=route.get("takeoff") is not None,
             land=_attempt(AnyLanding, route.get("land")),
             has_land=route.get("land") is not None,
-            in_given_order=route.get("order", "given") == "given",
             planar_keys=tuple(planar_keys_of(top)),
         )
 

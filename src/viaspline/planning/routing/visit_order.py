@@ -1,10 +1,8 @@
 """The order of the via points of a round, improved: less in all, start and goal where they are.
 
-The travelling salesman's problem over the lengths of the ways between all points, round what stands
-between them: exact for few via points (Held and Karp, "A Dynamic Programming Approach to Sequencing
-Problems", 1962), else by exchanges until none makes the round shorter (2-opt and Or-opt). Among
-very many only exchanges with near neighbours are looked at, and lengths are straight: neither what
-stands between nor the sides that are asked for count there.
+By the lengths of the ways between all points, round what stands between them: see ``least_order``.
+Among very many only exchanges with near neighbours are looked at, and lengths are straight: neither
+what stands between nor the sides that are asked for count there.
 
 Where time counts, the shortest order is exchanged on until nothing is sooner, by the time of
 ``round_cost``: for a few via points it is the soonest of all; of many the shortest is taken.
@@ -13,9 +11,8 @@ Where time counts, the shortest order is exchanged on until nothing is sooner, b
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
 from functools import partial
-from itertools import combinations, permutations
+from itertools import permutations
 
 import numpy as np
 
@@ -29,22 +26,25 @@ from viaspline.planning.problem.method import Outcome
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import WholeLeg
 from viaspline.planning.routing.asked_sides import AskedSides, sided
-from viaspline.planning.routing.round_cost import RoundLength, RoundTime, WaysBetween
+from viaspline.planning.routing.least_order import (
+    MAX_VIAS_ALL_ORDERS,
+    exchanged,
+    last_stop,
+    round_of,
+    shortest_order,
+)
+from viaspline.planning.routing.round_cost import RoundTime, WaysBetween
 from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
-MAX_VIAS_ALL_ORDERS = 9  # up to which all orders are compared
 MAX_VIAS_ROUTED = 50  # up to which every two have a way between them laid
 NEAR = 10  # neighbours of each point that exchanges are looked for among
 MAX_EXCHANGES_EACH = 50  # for each point, beyond which the rest is left
 MAX_VIAS_ALL_TIMES = 5  # up to which all orders are compared by their time
 MAX_VIAS_TIMED = 16  # up to which exchanges are looked for by their time
-LEAST_GAIN = 1e-9  # less by less is not less [m or s]
-
-Cost = Callable[[tuple[int, ...]], float]  # of a round past points in their order
 
 
 def ordered(mission: Mission, world: World) -> Mission:
@@ -101,23 +101,14 @@ def _order_of_few(mission: Mission, world: World) -> tuple[int, ...]:
     if not objective.is_time or count > MAX_VIAS_TIMED or not np.isfinite(ways.lengths).all():
         return order
     stands = np.array([True, *(via.dwell_s > 0.0 for via in route.via), True])
-    time = _of_order(RoundTime.of_pace(ways, stands, objective.pace).of, last)
+    rounds = RoundTime.of_pace(ways, stands, objective.pace)
+
+    def time(order: tuple[int, ...]) -> float:
+        return rounds.of(round_of(order, last))
+
     if count <= MAX_VIAS_ALL_TIMES:
         return min(permutations(order), key=time)
-    return _exchanged(time, order)
-
-
-def _of_order(cost: Cost, last: int | None) -> Cost:
-    """What an order of via points, from 0, costs between the first point and the last."""
-    ends = () if last is None else (last,)
-    return lambda order: cost((0, *(k + 1 for k in order), *ends))
-
-
-def last_stop(points: int, count: int, *, closed: bool) -> int | None:
-    """The point at which a round ends, if it isn't one of its via points."""
-    if closed:
-        return 0
-    return count + 1 if points > count + 1 else None
+    return exchanged(time, order)
 
 
 def named(via: ViaPoint, place: int) -> ViaPoint:
@@ -198,84 +189,3 @@ def _nearest_places(xy: Floats) -> list[int]:
         left[k] = left[-1]
         left = left[:-1]
     return order
-
-
-def shortest_order(lengths: Floats, count: int, last: int | None) -> tuple[int, ...]:
-    """The order of the via points, from 0, between the first point and the last.
-
-    Args:
-        lengths: Of the ways from each point to each other one, start and goal among them, (n, n);
-            there and back may differ.
-        count: How many via points there are: points 1 to ``count``.
-        last: See ``last_stop``.
-
-    >>> shortest_order(np.abs(np.subtract.outer([0, 30, 10, 40], [0, 30, 10, 40])), 2, 3)
-    (1, 0)
-    """
-    if count <= MAX_VIAS_ALL_ORDERS:
-        return _held_karp(lengths, count, last)
-    return _exchanged(_of_order(RoundLength(lengths).of, last), _nearest_first(lengths, count))
-
-
-def _held_karp(lengths: Floats, count: int, last: int | None) -> tuple[int, ...]:
-    """The best of all orders, built up from the best of all subsets of the via points."""
-    best: dict[tuple[int, int], tuple[float, tuple[int, ...]]] = {
-        (1 << k, k): (float(lengths[0, k + 1]), (k,)) for k in range(count)
-    }
-    for size in range(2, count + 1):
-        for chosen in combinations(range(count), size):
-            mask = sum(1 << k for k in chosen)
-            for k in chosen:
-                before = [best[mask ^ (1 << k), j] for j in chosen if j != k]
-                steps = [
-                    (length + float(lengths[order[-1] + 1, k + 1]), (*order, k))
-                    for length, order in before
-                ]
-                best[mask, k] = min(steps)
-    full = (1 << count) - 1
-    ends = [
-        (length + (0.0 if last is None else float(lengths[k + 1, last])), order)
-        for k in range(count)
-        for length, order in [best[full, k]]
-    ]
-    return min(ends)[1] if ends else ()
-
-
-def _nearest_first(lengths: Floats, count: int) -> tuple[int, ...]:
-    """Always on to the nearest that is left."""
-    here, order = 0, []
-    left = set(range(count))
-    while left:
-        here = min(left, key=lambda k: (lengths[here, k + 1], k)) + 1
-        order.append(here - 1)
-        left.remove(here - 1)
-    return tuple(order)
-
-
-def _exchanged(cost: Cost, order: tuple[int, ...]) -> tuple[int, ...]:
-    """Take the first exchange that makes the round cost less, until there is none."""
-    best = cost(order)
-    improved = True
-    while improved:
-        improved = False
-        for candidate in _neighbours(order):
-            its = cost(candidate)
-            if its < best - LEAST_GAIN:
-                order, best, improved = candidate, its, True
-                break
-    return order
-
-
-def _neighbours(order: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
-    """Orders with a part turned round (2-opt), or one of up to three points elsewhere (Or-opt)."""
-    count = len(order)
-    for i, j in combinations(range(count + 1), 2):
-        if j - i > 1:
-            yield order[:i] + order[i:j][::-1] + order[j:]
-    for size in (1, 2, 3):
-        for i in range(count - size + 1):
-            part, rest = order[i : i + size], order[:i] + order[i + size :]
-            for j in range(len(rest) + 1):
-                if j != i:
-                    yield rest[:j] + part + rest[j:]
-                    yield rest[:j] + part[::-1] + rest[j:]
