@@ -80,6 +80,37 @@ def drivability_of(
     )  # fmt: skip
 
 
+def drivability_in_space(path: Path, trajectory: Trajectory, robot: RobotSpec) -> Drivability:
+    """How a path in space flies; where it turns on the spot counts for nothing, for it hovers.
+
+    Args:
+        path: What is flown.
+        trajectory: Its time law, of all of it.
+        robot: Its body and its limits.
+
+    Example:
+        >>> from viaspline.trajectory.limits import Limits
+        >>> from viaspline.trajectory.retime import retime
+        >>> bend = Path([[(0, 0, 9), (0, 0.1, 9), (0, 0.1, 9), (0.1, 0.1, 9)]], vias=[])
+        >>> law = retime(bend, Limits(max_speed=2, max_accel=1))
+        >>> drivability_in_space(bend, law, RobotSpec(radius_m=0.3)).reasons[0].text
+        "its sharpest bend has a radius of 0.035 m, less than the robot's own 0.3 m"
+    """
+    drive = _Drive(path, trajectory, robot, World([]), closed=False)
+    sharpest, radius = drive.sharpest
+    lateral, lateral_at = drive.largest(1.0)
+    jumps, largest_jump, jump_at = drive.jumps
+    cusps, least = drive.near_cusps, least_radius(robot)
+    reasons = reasons_against(
+        (radius, sharpest, least), cusps, (), limits_of(robot), trajectory, (lateral, lateral_at),
+        (0.0, None),
+    )  # fmt: skip
+    return Drivability(
+        radius, sharpest, least, lateral, lateral_at, jumps, largest_jump, jump_at, 0, cusps, (),
+        reasons,
+    )  # fmt: skip
+
+
 def least_radius(robot: RobotSpec) -> float:
     """The least radius that is round enough for a robot [m]: its turning circle, else its body's.
 
@@ -232,4 +263,6 @@ class _Drive:
         if vias[nearest].kind == "user" and (not obstacle or apart[nearest] <= gaps[0]):
             return str(vias[nearest].name)
         detour = vias[nearest].kind == "detour" and apart[nearest] <= gaps[0]
+        if detour and not obstacle:
+            return "a detour point"
         return f"a detour point beside {obstacle}" if detour else obstacle

@@ -11,6 +11,8 @@ from functools import cached_property
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.height_certificate import HeightCertificate
 from viaspline.curve.path import Path
+from viaspline.machine.drivability import Drivability
+from viaspline.machine.measure_drivability import drivability_in_space
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.presentable.compared_by_value import ComparedByValue
@@ -93,6 +95,11 @@ class SpatialPlan(ShownValue, SavedValue, ComparedByValue):
     def tracking_error(self) -> float:
         """How far the robot gets beside its path, as the mission says [m]."""
         return self.mission.robot.tracking_error_m or 0.0
+
+    @cached_property
+    def drivability(self) -> Drivability:
+        """How it flies: whether it is round enough everywhere, and keeps every limit."""
+        return drivability_in_space(self.path, self.trajectory, self.mission.robot)
 
     @cached_property
     def sharpest_radius(self) -> float:

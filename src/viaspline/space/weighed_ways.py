@@ -6,7 +6,7 @@ Tested through ``space/test_plan_spatial``.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, Protocol
 
@@ -21,6 +21,7 @@ from viaspline.space.laying.leg_polygon import LegPolygon
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import FacingFixed, yaw_profile
+from viaspline.trajectory.trajectory import Trajectory
 
 GENTLEST_M: Final = 200.0
 """Radius of corners, at most, however fast the robot is."""
@@ -58,6 +59,26 @@ class WaysPast(Protocol):
         """
 
 
+def least_radius(problem: SpatialProblem) -> float:
+    """The radius of a turn that is round enough for a body: its own [m]."""
+    return max(problem.radius, float(problem.world.packed.core[0]))
+
+
+def cost_of(problem: SpatialProblem) -> Callable[[Floats], float]:
+    """By what curves are chosen, from their spans (m, 4, 3): time, from rest to rest, or length."""
+
+    def cost(spans: Floats) -> float:
+        path = Path(spans, [])
+        return path.length if problem.objective == "length" else law_of(problem, path).duration
+
+    return cost
+
+
+def law_of(problem: SpatialProblem, path: Path) -> Trajectory:
+    """The fastest law along a curve alone, from rest to rest, wherever the body looks."""
+    return retime_in_space(path, problem.limits, (), yaw_profile(path, FacingFixed(0.0)))
+
+
 def corner_radius(problem: SpatialProblem) -> float:
     """How gently to turn at corners if there is room [m]: so that no speed is lost by it.
 
@@ -65,7 +86,7 @@ def corner_radius(problem: SpatialProblem) -> float:
     """
     along = problem.limits.along
     if problem.objective == "length":
-        return max(problem.radius, float(problem.world.packed.core[0]), 0.1)
+        return WIDER * max(least_radius(problem), 0.1)
     across = along.max_lateral_accel or along.max_accel
     return min(WIDER * along.max_speed**2 / across, GENTLEST_M)
 
@@ -126,7 +147,7 @@ def _weigh(problem: SpatialProblem, check: Check, leg: int, way: TautWay) -> Wei
         nothing = Candidate(way.side, way.inner, np.empty((0, 4, 3)), impossible=why)
         return WeighedWay(way, nothing, math.inf)
     path = Path(polygon.spans()[0], [])
-    law = retime_in_space(path, problem.limits, (), yaw_profile(path, FacingFixed(0.0)))
+    law = law_of(problem, path)
     proof = certify(path, problem.world, problem.clearance, radius=problem.radius)
     candidate = Candidate(
         way.side, way.inner, np.asarray(path.spans), path.length, law.duration, proof.clearance,

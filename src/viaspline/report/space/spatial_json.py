@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from viaspline.report.csv_tables import spacing, table_csv
+from viaspline.report.drivability_json import drivability_data
 from viaspline.report.json_text import dumps
 from viaspline.report.moving_json import encounters_data, moving_certificate_data, waits_list
 from viaspline.report.plan_json import (
@@ -41,6 +42,7 @@ def spatial_plan_json(plan: SpatialPlan, name: str) -> str:
             | moving_certificate_data(plan.moving),
             "heights": heights_data(plan),
             "airborne_m": plan.airborne,
+            "drivability": drivability_data(plan.drivability),
             "sharpest_radius_m": None if math.isinf(plan.sharpest_radius) else plan.sharpest_radius,
             "yaw": _yaw(plan.yaw),
             "ledger": [ledger_entry_data(entry) for entry in plan.ledger],

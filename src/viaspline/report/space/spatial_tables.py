@@ -13,6 +13,7 @@ from viaspline.report.space.heights_json import heights_rows
 from viaspline.report.terminal_tables import (
     MAX_LIST_LINES,
     Rows,
+    drivability_rows,
     encounter_rows,
     facts_table,
     ledger_table,
@@ -56,6 +57,7 @@ def spatial_plan_rows(plan: SpatialPlan) -> Rows:
     rows += heights_rows(plan)
     radius = plan.sharpest_radius
     rows.append(("sharpest radius", "straight" if math.isinf(radius) else metres(radius)))
+    rows += drivability_rows(plan.drivability)
     stations = [s for s in plan.trajectory.stations if s.dwell > 0]
     if stations:
         rows.append(

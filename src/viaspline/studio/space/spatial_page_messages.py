@@ -12,6 +12,8 @@ from typing import Any, Final
 import numpy as np
 
 from viaspline.planning.problem.ledger import Candidate
+from viaspline.report.drivability_json import drivability_data
+from viaspline.report.json_text import plain
 from viaspline.report.space.heights_json import heights_rows
 from viaspline.space.solve_route import LANDING, TAKE_OFF
 from viaspline.space.spatial_plan import SpatialPlan
@@ -84,7 +86,7 @@ def _from_above(plan: SpatialPlan) -> dict[str, Any]:
             "distance": finite(proof.tightest_distance),
             "nearest": None if proof.obstacle is None else as_listed(proof.obstacle),
         },
-        "drivability": None,
+        "drivability": plain(drivability_data(plan.drivability)),
         "order": [via.name for via in path.vias if via.kind == "user"],
         "corridor": [],
     }  # fmt: skip
