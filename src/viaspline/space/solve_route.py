@@ -57,7 +57,11 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
         found = layer.lay(legs, {})
     except StuckLegError as stuck:
         raise _gave_up(problem, stuck) from None
-    turns = GentleTurns(least_radius(problem), layer.radius, layer.laid_anew, cost_of(problem))
+    first = problem.vias[0]
+    turns = GentleTurns(
+        least_radius(problem), layer.radius, layer.laid_anew, cost_of(problem),
+        is_rolling=first.dwell is None and first.direction is not None,
+    )  # fmt: skip
     found = turns.of(found)
     path, airborne = _whole_path(problem, found)
     ledger = tuple(found.entries[leg] for leg in sorted(found.entries))

@@ -76,12 +76,14 @@ class GentleTurns(Generic[Route]):
         radius: Of curvature, to be had if there is room [m].
         lay: Lays a route.
         cost: What a curve costs.
+        is_rolling: Whether the robot is under way where the route begins: it can't turn there.
     """
 
     least: float
     radius: float
     lay: Lay[Route]
     cost: Cost
+    is_rolling: bool = False
 
     def of(self, found: Route) -> Route:
         """A clear route with its sharp turns laid gently, as far as that can be."""
@@ -119,40 +121,61 @@ class GentleTurns(Generic[Route]):
     def _lack(self, found: ClearRoute) -> float:
         """By how much the legs of a route are too sharp together, each by orders of magnitude."""
         sharpest = (_sharpest(found.laid.leg(leg))[0] for leg in range(len(found.legs.inner)))
-        lacks = (math.log10(self.least / max(radius, NO_RADIUS_M)) for radius in sharpest)
-        return sum(max(0.0, round(lack, 3)) for lack in lacks)
+        sharp = (max(radius, NO_RADIUS_M) for radius in sharpest if radius < ROUND * self.least)
+        return sum(round(math.log10(self.least / radius), 3) for radius in sharp)
 
-    def _other_turns(self, found: ClearRoute, turn: _Turn) -> Iterator[RouteLegs]:
+    def _other_turns(self, found: Route, turn: _Turn) -> Iterator[RouteLegs]:
         """Ways to turn at a via point in place of the one that is too sharp."""
-        legs, wanted = found.legs, ROOMY * self.least
-        inside = 0 < turn.via < len(legs.vias) - 1
-        if inside and np.isnan(legs.given[turn.via]).any():
-            joint = found.laid.joints[turn.via]
+        legs, wanted, via = found.legs, ROOMY * self.least, turn.via
+        if 0 < via < len(legs.vias) - 1 and np.isnan(legs.given[via]).any():
+            joint = found.laid.joints[via]
             own = found.laid.spans[joint, 1] - found.laid.spans[joint, 0]
-            for way in (_across(legs, turn.via), own / np.linalg.norm(own)):
+            for way in (_across(legs, via), own / np.linalg.norm(own)):
                 given = legs.given.copy()
-                given[turn.via] = way
+                given[via] = way
                 through = replace(legs, given=given)
                 for radius in (wanted, ROOMY * wanted, self.radius):
-                    yield _as_polygons(through, (turn.via - 1, turn.via), radius)
+                    before = self._turning(through, via - 1, via, radius)
+                    yield self._turning(before, via, via, radius)
+                if not self.is_rolling:
+                    before = self._turning(through, via - 1, via, wanted, rest=wanted)
+                    yield self._turning(before, via, via, wanted, rest=wanted)
             return
-        way = legs.given[turn.via]
+        if self.is_rolling and via == 0:
+            return
+        way = legs.given[via]
         if not np.isnan(way).any():
             for aside in _asides(legs, turn, way):
-                inner = _arc(legs, turn, way, aside, wanted / ARC_SHARE)
-                yield legs.led_round(turn.leg, inner, wanted)
-        yield _as_polygons(legs, (turn.leg,), wanted)
+                arc = _arc(legs, turn, way, aside, wanted / ARC_SHARE)
+                yield self._turning(legs, turn.leg, via, wanted, arc)
+        for rest in (self.radius, wanted):
+            yield self._turning(legs, turn.leg, via, wanted, rest=rest)
 
+    def _turning(
+        self, legs: RouteLegs, leg: int, via: int, radius: float, arc: Floats | None = None, *,
+        rest: float | None = None,
+    ) -> RouteLegs:  # fmt: skip
+        """A route with one leg a polygon that turns by a radius [m] at one of its ends.
 
-def _as_polygons(legs: RouteLegs, which: tuple[int, ...], radius: float) -> RouteLegs:
-    """A route of which some legs are polygons; those that are already keep their corners."""
-    for leg in which:
+        Args:
+            legs: Of the route.
+            leg: Which one it is; its corners stay.
+            via: The via point at that end.
+            radius: There.
+            arc: Corners that it has beside these, from that via point on [m], (k, d).
+            rest: At its other corners [m]; None: as gentle as there is room for.
+        """
         inner = legs.inner[leg]
-        if inner is None:
-            legs = legs.led_round(leg, np.empty((0, legs.vias.shape[1])), radius)
+        corners = np.empty((0, legs.vias.shape[1])) if inner is None else inner
+        beside = corners[:0] if arc is None else arc
+        radii = np.full(len(corners) + 1, self.radius if rest is None else rest)
+        close = np.full(len(beside) + 1, radius)
+        if via == leg:
+            corners, radii = np.concatenate((beside, corners)), np.concatenate((close, radii))
         else:
-            legs = legs.led_round(leg, inner, radius)
-    return legs
+            corners = np.concatenate((corners, beside[::-1]))
+            radii = np.concatenate((radii, close))
+        return legs.with_polygon(leg, corners, radii)
 
 
 def _beside(legs: RouteLegs, via: int, step: int) -> Floats:
@@ -199,7 +222,7 @@ def _asides(legs: RouteLegs, turn: _Turn, way: Floats) -> Iterator[Floats]:
 
 
 def _arc(legs: RouteLegs, turn: _Turn, way: Floats, aside: Floats, radius: float) -> Floats:
-    """The corners of an arc from a via point's direction to what is next [m], in order of flight.
+    """The corners of an arc from a via point's direction to what is next [m], from there on.
 
     Args:
         legs: Of the route.
@@ -220,10 +243,7 @@ def _arc(legs: RouteLegs, turn: _Turn, way: Floats, aside: Floats, radius: float
     angle = angle % math.tau
     steps = max(1, math.ceil(angle / ARC_STEP))
     at = (np.arange(steps) + 0.5) * angle / steps
-    arc = centre + radius * (np.sin(at)[:, None] * way - np.cos(at)[:, None] * aside)
-    old = legs.inner[turn.leg]
-    kept = np.empty((0, len(place))) if old is None else old
-    return np.concatenate((arc, kept) if leaves else (kept, arc[::-1]))
+    return np.asarray(centre + radius * (np.sin(at)[:, None] * way - np.cos(at)[:, None] * aside))
 
 
 def _sharpest(spans: Floats) -> tuple[float, float]:

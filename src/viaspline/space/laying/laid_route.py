@@ -66,7 +66,16 @@ class RouteLegs:
             inner: They [m], shape (k, d).
             radius: Of curvature, to be had at each corner if there is room [m].
         """
-        radii = np.full(len(inner) + 2, radius)
+        return self.with_polygon(leg, inner, np.full(len(inner) + 2, radius))
+
+    def with_polygon(self, leg: int, inner: Floats, radii: Floats) -> RouteLegs:
+        """This route with one leg that isn't the spline.
+
+        Args:
+            leg: Which one.
+            inner: Its corners [m], shape (k, d).
+            radii: How gently it turns at its via points and corners [m], shape (k + 2,).
+        """
         return replace(
             self,
             inner=(*self.inner[:leg], inner, *self.inner[leg + 1 :]),
