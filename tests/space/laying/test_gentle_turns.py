@@ -96,7 +96,7 @@ def test_a_direction_that_leads_away_is_flown_by_an_arc_and_kept(facing: float) 
 
 def test_straight_back_is_a_turn_as_wide_as_the_body_needs() -> None:
     found = turns().of(spline(np.array([[0.0, 0, 9], [30, 0, 9], [0, 0, 9]])))
-    assert LEAST <= sharpest(found)
+    assert sharpest(found) >= LEAST
     assert found.laid.spans[:, :, 0].max() < 30 + 4 * LEAST
 
 
