@@ -61,6 +61,10 @@ def test_what_is_no_bag_is_an_error_of_the_arguments(folder: Path) -> None:
     done = CliRunner().invoke(cli, ["replay", f"{folder}/short.yaml"])
     assert done.exit_code == 2
     assert "no MCAP" in done.output
+    missing = CliRunner().invoke(cli, ["replay", f"{folder}/missing.mcap"])
+    assert missing.exit_code == 2
+    assert "there is no such file; give a .mcap" in missing.output
+    assert "driving again" not in missing.output
     vague = CliRunner().invoke(cli, ["replay", f"{folder}/short.yaml", "--tolerance", "nan"])
     assert vague.exit_code == 2
     assert "tolerance is nan" in vague.output

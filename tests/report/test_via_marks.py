@@ -1,12 +1,14 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.lines import Line2D
 
 from viaspline.curve.path import PathVia
 from viaspline.mission.model import Mission
 from viaspline.report import style
 from viaspline.report.canvas import new_figure
 from viaspline.report.labels import Labels
+from viaspline.report.path_marks import mark_sharpest
 from viaspline.report.via_marks import draw_vias, via_marks
 
 
@@ -44,3 +46,17 @@ def test_a_number_that_has_no_room_on_its_mark_stands_beside_it() -> None:
 def test_a_station_is_a_square() -> None:
     marks = via_marks([_via(0, 0), _via(5, 1, dwell=3.0), _via(9, 2)], False, np.eye(3)[:, :2] * 99)
     assert [mark.kind for mark in marks] == ["start", "station", "goal"]
+
+
+def test_what_is_marked_at_a_via_point_leaves_its_number_seen() -> None:
+    mission = Mission.model_validate({"route": {"start": [0, 0], "via": [[5, 0]], "goal": [9, 0]}})
+    axes = new_figure(8, 8, style.DPI).add_axes((0, 0, 1, 1))
+    axes.set_xlim(-1, 11)
+    axes.set_ylim(-6, 6)
+    labels = Labels(axes)
+    draw_vias(axes, labels, [_via(x, k) for k, x in enumerate((0.0, 5.0, 9.0))], mission)
+    marks = list(axes.lines)
+    (around,) = mark_sharpest(axes, labels, (5.1, 0.0), 0.4)
+    assert isinstance(around, Line2D)
+    assert all(around.get_zorder() < mark.get_zorder() for mark in marks)
+    assert around.get_markersize() > max(mark.get_markersize() for mark in marks)

@@ -18,6 +18,7 @@ from viaspline.errors import BagError
 from viaspline.ros_messages.message_types import full_name
 
 SUFFIXES: Final = (".mcap", ".db3")
+NO_SUCH_BAG: Final = "there is no such file; give a .mcap, or the folder of a rosbag2"
 
 
 def read_bag(path: Path, wanted: Wanted, extent: BagExtent) -> Iterator[RawMessage]:
@@ -34,7 +35,7 @@ def read_bag(path: Path, wanted: Wanted, extent: BagExtent) -> Iterator[RawMessa
     """
     if not is_folder(path):
         if not is_there(path):
-            raise BagError(path, "there is no such file; give a .mcap, or the folder of a rosbag2")
+            raise BagError(path, NO_SUCH_BAG)
         yield from _file(path, wanted, extent)
         return
     files = sorted(one for one in path.iterdir() if one.suffix in SUFFIXES)

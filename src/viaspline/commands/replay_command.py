@@ -6,7 +6,10 @@ from pathlib import Path
 
 import click
 
+from viaspline.bags.rosbag2_reader import NO_SUCH_BAG
+from viaspline.bounded_file import is_there
 from viaspline.commands.command_steps import progress_bar
+from viaspline.errors import BagError
 from viaspline.exit_codes import NOT_REACHED
 from viaspline.report.terminal_lines import say, say_error
 
@@ -29,6 +32,8 @@ def replay(bag: Path, tolerance: float, quiet: bool) -> None:
     Example:
       viaspline run examples/fig8-patrol.yaml --bag run.mcap && viaspline replay run.mcap
     """
+    if not is_there(bag):
+        raise BagError(bag, NO_SUCH_BAG)
     with progress_bar(quiet) as watch, watch.stage("replay", "driving again"):
         from viaspline.bags.replay import replay as drive_again
 

@@ -82,8 +82,9 @@ def draw_tightest(axes: Axes, labels: Labels, certificate: Certificate) -> list[
         return []
     x, y = certificate.tightest_at[:2]
     (ring,) = axes.plot(
-        x, y, marker="o", markersize=11, markerfacecolor="none", markeredgecolor=style.TIGHTEST,
-        markeredgewidth=1.6, linestyle="none", zorder=14, label="tightest place",
+        x, y, marker="o", markersize=style.AROUND_PT, markerfacecolor="none",
+        markeredgecolor=style.TIGHTEST, markeredgewidth=1.6, linestyle="none",
+        zorder=style.AROUND_MARKS, label="tightest place",
     )  # fmt: skip
     labels.add(
         f"{down(certificate.clearance)} clear", (x, y), rank=1, colour=style.TIGHTEST, gap=14
@@ -105,7 +106,7 @@ def draw_sharpest(axes: Axes, labels: Labels, drive: Drivability) -> list[Artist
     if drive.turns_on_spot:
         places = np.array([turn.place.at[:2] for turn in drive.turns_on_spot])
         handles += axes.plot(
-            *places.T, marker="D", markersize=13, markeredgewidth=1.2, zorder=13,
+            *places.T, marker="D", markersize=13, markeredgewidth=1.2, zorder=style.AROUND_MARKS,
             label="turn on the spot", **look,  # type: ignore[arg-type]
         )  # fmt: skip
     return handles
@@ -121,8 +122,9 @@ def mark_sharpest(
     """
     labels.add(radius_words(radius), at, rank=2, colour=style.SHARPEST, gap=14)
     return [*axes.plot(
-        *at, marker="s", markersize=12, markeredgewidth=1.5, zorder=14, markerfacecolor="none",
-        markeredgecolor=style.SHARPEST, linestyle="none", label="sharpest place", scalex=False,
+        *at, marker="s", markersize=style.AROUND_PT, markeredgewidth=1.5,
+        zorder=style.AROUND_MARKS, markerfacecolor="none", markeredgecolor=style.SHARPEST,
+        linestyle="none", label="sharpest place", scalex=False,
         scaley=False,
     )]  # fmt: skip
 

@@ -250,7 +250,7 @@ def _draw_sight(sheet: Sheet, run: Run, event: Event) -> None:
         return
     sheet.map.plot(
         *np.array([event.at[:2], seen]).T, color=style.UNSEEN, linewidth=0.8, linestyle=":",
-        zorder=14, scalex=False, scaley=False,
+        zorder=style.AROUND_MARKS, scalex=False, scaley=False,
     )  # fmt: skip
 
 

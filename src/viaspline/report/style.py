@@ -52,6 +52,9 @@ SMALL_PT = 7.5
 
 PATH_WIDTH_PT = 2.0
 
+AROUND_PT = 14.5  # of a mark around a place, wider than the numbered mark of a via point
+AROUND_MARKS = 11.5  # the layer of such marks, under those of via points, whose numbers stay seen
+
 LEFT_TO_RIGHT = "\u200e"
 
 
