@@ -19,6 +19,7 @@ from viaspline.robot.run import MODES, Run, Shortfall
 from viaspline.tracks.encountered import Encounters
 
 Rows = list[tuple[str, str]]  # names, and what they are
+LEAST_ROOM_M = 0.005  # by which two ways on one side are told apart
 MAX_REASONS = 4  # why a path drives roughly, before the rest is only counted
 MAX_LIST_LINES = 12  # of a long list, before the rest is only counted
 
@@ -133,12 +134,39 @@ def ledger_table(ledger: tuple[LedgerEntry, ...]) -> RenderableType:
         table.add_column(column, justify="right" if column in _COMPARED_FIGURES else "left")
     for entry in ledger[:MAX_LIST_LINES]:
         leg, past = " → ".join(entry.leg), _members(entry.members)
-        for candidate in entry.candidates:
-            table.add_row(leg, past, candidate.side, *_candidate(candidate))
+        for side, candidate in zip(ways_told_apart(entry), entry.candidates, strict=True):
+            table.add_row(leg, past, side, *_candidate(candidate))
             leg = past = ""
     if len(ledger) > MAX_LIST_LINES:
         table.add_row(f"… and {len(ledger) - MAX_LIST_LINES} more in plan.json")
     return table
+
+
+def ways_told_apart(entry: LedgerEntry) -> list[str]:
+    """The sides of an entry's candidates; what keeps more room on a side than another says so.
+
+    >>> import numpy as np
+    >>> nothing = np.empty((0, 3))
+    >>> near, far = (Candidate("left", nothing, nothing, clearance=kept) for kept in (0.5, 1.25))
+    >>> ways_told_apart(LedgerEntry(("mast",), ("A", "B"), (near, far)))
+    ['left', 'left, 0.75 m roomier']
+    """
+    first: dict[str, Candidate] = {}
+    words = []
+    for candidate in entry.candidates:
+        other = first.setdefault(candidate.side, candidate)
+        words.append(candidate.side if other is candidate else _beside(candidate, other))
+    return words
+
+
+def _beside(candidate: Candidate, other: Candidate) -> str:
+    """A side on which another way passes as well, told by what this one has more of."""
+    if candidate.clearance is None or other.clearance is None:
+        return f"{candidate.side}, another way"
+    more = candidate.clearance - other.clearance
+    if abs(more) < LEAST_ROOM_M:
+        return f"{candidate.side}, another way"
+    return f"{candidate.side}, {metres(abs(more))} {'roomier' if more > 0.0 else 'closer'}"
 
 
 _COMPARED_FIGURES = ("time", "length", "clearance", "curvature")
