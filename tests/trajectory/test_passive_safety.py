@@ -15,10 +15,8 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.trajectory.limits import Limits
+from viaspline.trajectory.passive_premises import SPACING_M, ChordTable, PassivePremises
 from viaspline.trajectory.passive_safety import (
-    SPACING_M,
-    ChordTable,
-    PassivePremises,
     passive_law,
     proven_until,
     stoppable_speeds,

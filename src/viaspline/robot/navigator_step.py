@@ -167,11 +167,11 @@ def _followed(now: _StepSoFar) -> _StepSoFar:
 
 def _on_next_part(now: _StepSoFar, schedule: Schedule) -> _StepSoFar:
     """The robot with what it has driven at its path's end."""
-    progress, schedule, behind = next_part(now.progress, schedule)
-    speed = float(schedule.trajectory.state_at(progress.time)[1])
-    schedule = rescheduled(now.task, progress, now.knowledge, schedule, speed)
+    progress, proven, behind = next_part(now.progress, schedule)
+    speed = float(proven.trajectory.state_at(progress.time)[1])
+    schedule = rescheduled(now.task, progress, now.knowledge, proven, speed)
     return replace(
-        now, progress=progress, schedule=schedule, proven=schedule, log=now.log.with_driven(behind),
+        now, progress=progress, schedule=schedule, proven=proven, log=now.log.with_driven(behind),
         is_part_new=True,
     )  # fmt: skip
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -14,86 +12,18 @@ from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.motion import passive_stop as kernels
-from viaspline.kernels.motion.passive_stop import Threats
+from viaspline.trajectory.passive_premises import (
+    SAME_PLACE_M,
+    SPACING_M,
+    ChordTable,
+    PassivePremises,
+)
 from viaspline.trajectory.retime import braking
 from viaspline.trajectory.trajectory import Trajectory
-from viaspline.world.moving_obstacles import MovingObstacles
-
-SPACING_M: Final = 0.1
-"""From place to place along a path [m]."""
 
 FIRST_STEPS_M: Final = (0.001, 0.003, 0.006, 0.012, 0.025, 0.05)
 """Places of a law, from where the robot is, that lie closer together: one that stands near to what
 might come goes no farther than that in the time in which it can still stand again [m]."""
-
-SAME_PLACE_M: Final = 1e-9
-"""Places of a law that are nearer to each other are one [m]."""
-
-
-@dataclass(frozen=True, eq=False)
-class PassivePremises:
-    """What may come, by one look: what passive safety is proven against.
-
-    Attributes:
-        tubes: What was seen to move or may move, each in its tube; none of them jumps.
-        seen_at: When the look was [s].
-        top_speed: Nothing is faster [m/s].
-        eye: Where the look was taken [m], shape (2,) or longer.
-        reach: All that is there and nearer was seen, or is behind a mouth [m].
-        mouths: Lines through which what was hidden may come [m], ``x0, y0, x1, y1``, shape (k, 4).
-    """
-
-    tubes: MovingObstacles
-    seen_at: float
-    top_speed: float
-    eye: tuple[float, ...]
-    reach: float = math.inf
-    mouths: Floats = field(default_factory=lambda: np.empty((0, 4)))
-
-    @cached_property
-    def packed(self) -> Threats:
-        """What kernels take."""
-        eye, mouths = np.array(self.eye[:2], np.float64), np.ascontiguousarray(self.mouths)
-        return Threats(
-            self.tubes.packed, float(self.seen_at), float(self.top_speed), eye, float(self.reach),
-            mouths.reshape(-1, 4).astype(np.float64),
-        )  # fmt: skip
-
-
-@dataclass(frozen=True, eq=False)
-class ChordTable:
-    """A part of a path as kernels take it: places at multiples of ``SPACING_M``.
-
-    Attributes:
-        origin: The distance along the path of the first of them [m].
-        places: [m], shape (n, 2), n >= 2; the chord in which the path ends goes on beyond it.
-        sag: How far the path may be from the chords between them [m].
-    """
-
-    origin: float
-    places: Floats
-    sag: float
-
-    @classmethod
-    def of(cls, path: Path, start: float, end: float) -> ChordTable:
-        """The part of a path between two distances along it [m].
-
-        Of two places A and B at a distance l along the path and a chord c, a place P between them
-        that is w l behind A is at most w l from A and (1 - w) l from B. So the place Q that is as
-        far along the chord is near it (Stewart's theorem):
-
-            |PQ|² = (1-w) |PA|² + w |PB|² - w (1-w) c² <= w (1-w) (l² - c²) <= (l² - c²) / 4.
-        """
-        first = math.floor(start / SPACING_M)
-        last = max(math.ceil(end / SPACING_M), first + 1)
-        along = np.minimum(SPACING_M * np.arange(first, last + 1), path.length)
-        places = np.ascontiguousarray(np.asarray(path.at_distance(along))[:, :2])
-        steps, chords = np.diff(along), np.diff(places, axis=0)
-        left = np.maximum(steps**2 - (chords**2).sum(axis=1), 0.0)
-        short = int((steps > SAME_PLACE_M).sum()) - 1  # where the path ends within a step
-        if short >= 0:
-            places[short + 1 :] = places[short] + chords[short] * (SPACING_M / steps[short])
-        return cls(first * SPACING_M, places, 0.5 * math.sqrt(float(left.max())))
 
 
 def proven_until(path: Path, law: Trajectory, premises: PassivePremises, keep: float) -> float:
@@ -114,6 +44,7 @@ def proven_until(path: Path, law: Trajectory, premises: PassivePremises, keep: f
         GeometryError: When the law limits the jerk, or begins before the look.
 
     Example:
+        >>> from viaspline.world.moving_obstacles import MovingObstacles
         >>> path, nothing = Path([[(x, 0.0) for x in (0, 3, 6, 9)]], []), MovingObstacles()
         >>> law = braking(0.0, speed=2.0, max_accel=1.0, start_time=0.0)
         >>> looks = [PassivePremises(nothing, 0.0, 1.0, (0, 0), reach) for reach in (4.51, 4.0)]
@@ -124,8 +55,47 @@ def proven_until(path: Path, law: Trajectory, premises: PassivePremises, keep: f
     _check_begin(float(law.times[0]), premises)
     part = ChordTable.of(path, float(law.distances[0]), float(law.distances[-1]))
     pieces[:, 0] -= part.origin
-    found = kernels.first_contact(premises.packed, part.places, SPACING_M, keep + part.sag, pieces)
-    return float(found)
+    kept = keep + part.sag
+    threats = premises.along(part, kept)
+    return float(kernels.first_contact(threats, part.places, SPACING_M, kept, pieces))
+
+
+def at_rest_until(
+    path: Path, distance: float, begin: float, stay: float, premises: PassivePremises, keep: float
+) -> float:
+    """Up to when it is proven that nothing on the map touches a robot which stands [s].
+
+    Args:
+        path: On which it stands.
+        distance: Where, along it [m].
+        begin: From when on [s].
+        stay: For how long [s].
+        premises: What may come.
+        keep: The body's radius and how far beside its path it may be [m].
+
+    Returns:
+        Infinite if it is for as long as it stays.
+
+    Raises:
+        GeometryError: When it begins before the look.
+
+    Example:
+        >>> from viaspline.mission.shapes.obstacle import Obstacle
+        >>> from viaspline.world.moving_obstacles import MovingObstacles
+        >>> path = Path([[(x, 0.0) for x in (0, 3, 6, 9)]], [])
+        >>> motion = {"from": (4, 5), "velocity_mps": (0, -1)}
+        >>> cart = Obstacle(circle={"center": (0, 0), "radius": 0.5}, motion=motion)
+        >>> known = MovingObstacles([cart])
+        >>> look = PassivePremises(MovingObstacles(), 0.0, 1.0, (0, 0), charted=known)
+        >>> round(at_rest_until(path, 4.0, 1.0, 8.0, look, 0.5), 2)
+        4.0
+        >>> at_rest_until(path, 2.0, 1.0, 8.0, look, 0.5)
+        inf
+    """
+    _check_begin(begin, premises)
+    part = ChordTable.at(path, distance)
+    threats = premises.along(part, keep)
+    return float(kernels.touched_at_rest(threats, part.places, SPACING_M, keep, 0.0, begin, stay))
 
 
 def passive_law(
@@ -136,6 +106,7 @@ def passive_law(
     limits: tuple[float, float],
     now: float,
     lasting: float = math.inf,
+    stay: float = 0.0,
 ) -> tuple[Trajectory, bool]:
     """A law no faster than another, from all places of which the robot stops in time.
 
@@ -151,6 +122,7 @@ def passive_law(
         now: When it begins, by the clock of ``upper`` [s].
         lasting: So long it goes on if it may; then it brakes [s]. Who looks again before then need
             not know more.
+        stay: Where it stops what is on the map has to stay away for so long [s].
 
     Returns:
         (the law, whether it is proven). Not proven: not even braking at once is, and that is the
@@ -162,6 +134,7 @@ def passive_law(
     Example:
         >>> from viaspline.trajectory.limits import Limits
         >>> from viaspline.trajectory.retime import retime
+        >>> from viaspline.world.moving_obstacles import MovingObstacles
         >>> path = Path([[(x, 0.0) for x in (0, 3, 6, 9)]], [])
         >>> free = retime(path, Limits(max_speed=2.0, max_accel=1.0))
         >>> blind = PassivePremises(MovingObstacles(), 0.0, 0.5, (0, 0), 6.0)
@@ -181,8 +154,8 @@ def passive_law(
     part = ChordTable.of(path, here, end)
     kept = keep + part.sag + 2.0 * kernels.LEAST_GAP  # so that a check finds it proven, too
     distances, squares, proven = kernels.passive_profile(
-        premises.packed, part.places, SPACING_M, kept, accel, brake, line - part.origin, caps,
-        speed, now, lasting,
+        premises.along(part, kept), part.places, SPACING_M, kept, accel, brake,
+        line - part.origin, caps, speed, now, lasting, stay,
     )  # fmt: skip
     if distances.size == 1:
         distances, squares = np.append(distances, distances), np.zeros(2)
@@ -243,6 +216,7 @@ def stoppable_speeds(
         GeometryError: When a time is before the look.
 
     Example:
+        >>> from viaspline.world.moving_obstacles import MovingObstacles
         >>> path = Path([[(x, 0.0) for x in (0, 3, 6, 9)]], [])
         >>> blind = PassivePremises(MovingObstacles(), 0.0, 1.0, (0, 0), 4.0)
         >>> stoppable_speeds(path, [0, 2], [0, 0], [9, 9], blind, 0.5, 1.0).round(2)
@@ -255,9 +229,10 @@ def stoppable_speeds(
         return np.empty(0)
     _check_begin(float(instants.min()), premises)
     part = ChordTable.of(path, float(along[0]), float((along + highest**2 / (2.0 * brake)).max()))
+    kept = keep + part.sag
     speeds: Floats = kernels.stoppable_speeds(
-        premises.packed, part.places, SPACING_M, keep + part.sag, brake, along - part.origin,
-        instants, highest,
+        premises.along(part, kept), part.places, SPACING_M, kept, brake,
+        along - part.origin, instants, highest,
     )  # fmt: skip
     return speeds
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import viaspline as vs
-from viaspline.robot.yielding import stoppable
+from viaspline.robot.yielding import certified_stop, stoppable
 from viaspline.trajectory.passive_safety import passive_law
 
 TOP_MPS = 1.5
@@ -89,7 +89,7 @@ def test_a_stop_that_was_proven_is_driven_on_its_path_and_what_was_seen_is_not_f
         unproven.append(float(law.start_time))
         return law, False
 
-    monkeypatch.setattr(stoppable, "passive_law", doubtful)
+    monkeypatch.setattr(certified_stop, "passive_law", doubtful)
     run = vs.simulate(planned.mission, plan=planned, step=0.1)
     assert len(unproven) == 5
     assert run.reached

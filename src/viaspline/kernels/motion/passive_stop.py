@@ -1,111 +1,52 @@
 """Is a robot at rest before anything can touch it, whatever comes from where it doesn't see?
 
-The premises: nothing is faster than ``top``; what was seen stays in its tube; whatever else there
-is was beyond the reach of the look, or behind one of its mouths, when that was taken. A mouth is a
-line through which something may come out of what was hidden.
-
-At a time t after the look, all that may be there is at a distance from a place p of at least
-
-    reach - |p - eye| - top t                                  what was beyond the reach,
-    |p - mouth| - top t                                        what was hidden,
-    max(|p - tube(t)|, |p - tube(0)| - top t)                  what was seen:
-
-the first two since p lies in what was seen, and a way from the unseen to p is at least that long;
-the third since it is both in its tube and no farther than ``top t`` from where it was. With p fixed
-each of them falls by no more than a rate L in a second: ``top``, or for what was seen the larger of
-``top`` and the speed and growth of its tube. With t fixed it falls by no more than a metre a metre.
-So if the distance d(t) of a robot that drives no faster than v from t on is more than ``keep``,
+What may come, how far that is from a place p at an instant t at least, and by what rate L that
+distance falls at most, say ``passive_threats``. With t fixed it falls by no more than a metre a
+metre. So if the distance d(t) of a robot that drives no faster than v from t on is more than
+``keep``,
 
     d(t') >= d(t) - (v + L) (t' - t) > keep   for t <= t' < t + (d(t) - keep) / (v + L),
 
-and that is how far a check goes on: it proves a law for all instants of it, not for samples.
+and that is how far a check goes on: it proves a law for all instants of it, not for samples. It
+looks anew where a motion jumps.
 
-Tested through ``trajectory/test_passive_safety``.
+What moves as the map says can be asked for more: whether it stays away from a robot that has come
+to rest, too. Of what else there may be nobody can say that.
+
+Tested through ``trajectory/test_passive_safety`` and ``trajectory/test_charted_safety``.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.motion.moving_distance import moving_distance
-from viaspline.kernels.motion.packed_motion import GROWTH, PackedMotion
+from viaspline.kernels.motion.passive_threats import (
+    Threats,
+    first_charted,
+    gap_to,
+    jumps_at,
+    rate_of,
+    sources,
+)
 
 LEAST_GAP: Final = 1e-3
 """A gap beyond what is to be kept that is taken for none: checks would go on in ever smaller steps
 [m]."""
+
+LEAST_STEP_S: Final = 1e-6
+"""By so much a check goes on at least where a motion jumps: in that time nothing goes as far as the
+least gap [s]."""
 
 HALVINGS: Final = 12
 """How often the interval of speeds is halved in which the largest one is looked for,"""
 
 STEP_HALVINGS: Final = 7
 """and that of what one step may change."""
-
-
-class Threats(NamedTuple):
-    """What may come, by one look.
-
-    Attributes:
-        tubes: What was seen; each goes without jumps, and is there from the look on.
-        seen_at: When the look was [s].
-        top: Nothing is faster [m/s].
-        eye: x, y of where it was taken [m], (2,).
-        reach: Nothing was hidden nearer than this but behind mouths [m]; infinite: nothing was
-            beyond.
-        mouths: x0, y0, x1, y1 [m], (k, 4).
-    """
-
-    tubes: PackedMotion
-    seen_at: float
-    top: float
-    eye: Floats
-    reach: float
-    mouths: Floats
-
-
-@inner
-def _segment_gap(x: float, y: float, segment: Floats) -> float:
-    """Distance from (x, y) to a segment (4,) [m]."""
-    dx = segment[2] - segment[0]
-    dy = segment[3] - segment[1]
-    length = dx * dx + dy * dy
-    w = 0.0
-    if length > 0.0:
-        w = min(max(((x - segment[0]) * dx + (y - segment[1]) * dy) / length, 0.0), 1.0)
-    return math.hypot(x - segment[0] - w * dx, y - segment[1] - w * dy)
-
-
-@inner
-def _gap(threats: Threats, k: int, t: float, x: float, y: float) -> float:
-    """How far from (x, y) at an instant what comes from source k is at least [m]."""
-    grown = threats.top * (t - threats.seen_at)
-    if k == 0:
-        return threats.reach - math.hypot(x - threats.eye[0], y - threats.eye[1]) - grown
-    mouths = threats.mouths.shape[0]
-    if k <= mouths:
-        return _segment_gap(x, y, threats.mouths[k - 1]) - grown
-    i = k - 1 - mouths
-    within_tube = moving_distance(threats.tubes, i, t, x, y, np.inf)
-    was = moving_distance(threats.tubes, i, threats.seen_at, x, y, np.inf)
-    return max(within_tube, was - grown)
-
-
-@inner
-def _rate(threats: Threats, k: int) -> float:
-    """By how much the distance to what comes from source k falls in a second at most [m/s]."""
-    i = k - 1 - threats.mouths.shape[0]
-    if i < 0:
-        return threats.top
-    return max(threats.top, threats.tubes.speeds[i] + threats.tubes.errors[i, GROWTH])
-
-
-@inner
-def _sources(threats: Threats) -> int:
-    return int(1 + threats.mouths.shape[0] + threats.tubes.speeds.size)
 
 
 @inner
@@ -122,33 +63,48 @@ def _place(places: Floats, step: float, s: float) -> tuple[float, float]:
 
 @inner
 def _first_contact(
-    threats: Threats, places: Floats, step: float, keep: float,
+    threats: Threats, first_source: int, places: Floats, step: float, keep: float,
     s: float, v: float, accel: float, t: float, duration: float,
 ) -> float:  # fmt: skip
     """From when on a piece of a law isn't proven [s]; infinite if all of it is."""
     first = np.inf
-    for k in range(_sources(threats)):
-        rate = _rate(threats, k)
+    charted = first_charted(threats)
+    for k in range(first_source, sources(threats)):
+        if k >= charted and t + duration <= threats.free_until[k - charted]:
+            continue
+        rate = rate_of(threats, k)
         late = 0.0
         while late < duration and t + late < first:
             now = v + accel * late
             fastest = max(now, v + accel * duration)
             x, y = _place(places, step, s + (v + 0.5 * accel * late) * late)
-            gap = _gap(threats, k, t + late, x, y) - keep
+            gap = gap_to(threats, k, t + late, x, y) - keep
             if not gap > LEAST_GAP:
                 first = t + late
                 break
-            late += gap / (fastest + rate)
+            later = min(late + gap / (fastest + rate), duration)
+            jump = jumps_at(threats, k, t + late, t + later)
+            late = later if jump > t + later else max(jump - t, late + LEAST_STEP_S)
     return first
 
 
 @inner
 def _stops(
-    threats: Threats, places: Floats, step: float, keep: float, brake: float,
+    threats: Threats, places: Floats, step: float, keep: float, brake: float, stay: float,
     s: float, v: float, t: float,
 ) -> bool:  # fmt: skip
-    """Whether a robot that brakes from here and now on is at rest before any contact."""
-    return math.isinf(_first_contact(threats, places, step, keep, s, v, -brake, t, v / brake))
+    """Whether a robot that brakes from here and now on is at rest before any contact.
+
+    And whether what is on the map stays away from it while it stays there for so long [s].
+    """
+    lasts = v / brake
+    if _first_contact(threats, 0, places, step, keep, s, v, -brake, t, lasts) < np.inf:
+        return False
+    if stay <= 0.0:
+        return True
+    rest, charted = s + 0.5 * v * lasts, first_charted(threats)
+    found = _first_contact(threats, charted, places, step, keep, rest, 0.0, 0.0, t + lasts, stay)
+    return math.isinf(found)
 
 
 @kernel
@@ -172,10 +128,32 @@ def first_contact(threats: Threats, places: Floats, step: float, keep: float, la
         t, duration = law[piece, 3], law[piece, 4]
         if v <= 0.0 and accel <= 0.0:
             continue
-        found = _first_contact(threats, places, step, keep, s, v, accel, t, duration)
+        found = _first_contact(threats, 0, places, step, keep, s, v, accel, t, duration)
         if found < np.inf:
             return found
     return np.inf
+
+
+@kernel
+def touched_at_rest(
+    threats: Threats, places: Floats, step: float, keep: float, s: float, t: float, stay: float
+) -> float:
+    """From when on it isn't proven that a robot which stands is touched by nothing on the map [s].
+
+    Args:
+        threats: What may come.
+        places: See ``first_contact``.
+        step: See ``first_contact``.
+        keep: See ``first_contact``.
+        s: Where it stands [m].
+        t: From when on [s].
+        stay: For how long [s].
+
+    Returns:
+        Infinite if it is for as long as it stays.
+    """
+    charted = first_charted(threats)
+    return _first_contact(threats, charted, places, step, keep, s, 0.0, 0.0, t, stay)
 
 
 @kernel
@@ -203,13 +181,13 @@ def stoppable_speeds(
     speeds = np.zeros(distances.size)
     for j in range(distances.size):
         s, t = distances[j], times[j]
-        if _stops(threats, places, step, keep, brake, s, caps[j], t):
+        if _stops(threats, places, step, keep, brake, 0.0, s, caps[j], t):
             speeds[j] = caps[j]
             continue
         low, high = 0.0, caps[j]
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            if _stops(threats, places, step, keep, brake, s, middle, t):
+            if _stops(threats, places, step, keep, brake, 0.0, s, middle, t):
                 low = middle
             else:
                 high = middle
@@ -219,7 +197,7 @@ def stoppable_speeds(
 
 @inner
 def _goes_on(
-    threats: Threats, places: Floats, step: float, keep: float, brake: float,
+    threats: Threats, places: Floats, step: float, keep: float, brake: float, stay: float,
     s: float, v: float, t: float, width: float, square: float,
 ) -> bool:  # fmt: skip
     """Whether a robot may drive to the next place, have a v² there, and still stops in time."""
@@ -228,27 +206,27 @@ def _goes_on(
         return False
     duration = 2.0 * width / (v + after)
     accel = (square - v * v) / (2.0 * width)
-    found = _first_contact(threats, places, step, keep, s, v, accel, t, duration)
+    found = _first_contact(threats, 0, places, step, keep, s, v, accel, t, duration)
     if found < np.inf:
         return False
-    return _stops(threats, places, step, keep, brake, s + width, after, t + duration)
+    return _stops(threats, places, step, keep, brake, stay, s + width, after, t + duration)
 
 
 @inner
 def _largest_square(
-    threats: Threats, places: Floats, step: float, keep: float, brake: float,
+    threats: Threats, places: Floats, step: float, keep: float, brake: float, stay: float,
     s: float, v: float, t: float, width: float, high: float,
 ) -> float:  # fmt: skip
     """The largest v² at the next place that is proven; that of braking on, below 0 if it rests."""
     best = v * v - 2.0 * brake * width
     if high < best:
         return best
-    if _goes_on(threats, places, step, keep, brake, s, v, t, width, high):
+    if _goes_on(threats, places, step, keep, brake, stay, s, v, t, width, high):
         return high
     low = max(best, 0.0)
     for _ in range(STEP_HALVINGS):
         middle = 0.5 * (low + high)
-        if _goes_on(threats, places, step, keep, brake, s, v, t, width, middle):
+        if _goes_on(threats, places, step, keep, brake, stay, s, v, t, width, middle):
             low = best = middle
         else:
             high = middle
@@ -258,7 +236,7 @@ def _largest_square(
 @kernel
 def passive_profile(
     threats: Threats, places: Floats, step: float, keep: float, accel: float, brake: float,
-    line: Floats, caps: Floats, speed: float, time: float, lasting: float,
+    line: Floats, caps: Floats, speed: float, time: float, lasting: float, stay: float,
 ) -> tuple[Floats, Floats, bool]:  # fmt: skip
     """A fast law from here and now on, from all of which the robot stops in time.
 
@@ -279,6 +257,7 @@ def passive_profile(
         speed: The robot's own, no larger than the first cap allows [m/s].
         time: When it is there [s].
         lasting: From so long after that on it brakes [s].
+        stay: Where it stops, what is on the map has to stay away for so long [s].
 
     Returns:
         (distances [m] (k,), v² there (k,), whether it is proven): to the end of the line or to a
@@ -287,7 +266,7 @@ def passive_profile(
     distances, squares = np.empty(line.size + 1), np.empty(line.size + 1)
     s, v, t = line[0], speed, time
     distances[0], squares[0] = s, v * v
-    proven = _stops(threats, places, step, keep, brake, s, v, t)
+    proven = _stops(threats, places, step, keep, brake, stay, s, v, t)
     n = 1
     for j in range(1, line.size):
         width = line[j] - line[j - 1]
@@ -295,7 +274,7 @@ def passive_profile(
         if proven and t < time + lasting:
             high = min(v * v + 2.0 * accel * width, caps[j])
             square = _largest_square(
-                threats, places, step, keep, brake, s, v, t, width, high
+                threats, places, step, keep, brake, stay, s, v, t, width, high
             )  # fmt: skip
         square = min(square, caps[j])  # it isn't more, but for rounding
         if square < 0.0:

@@ -122,10 +122,12 @@ def next_part(progress: Progress, schedule: Schedule) -> tuple[Progress, Schedul
         spans = np.concatenate((rest, behind.spans))[: round(ends.u)]
         ahead = Path(spans, [*vias, *(via for via in again if via.u <= ends.u)])
         turns, slow, to_come = [], (), replace(laps, unseen=0.0)
+    trajectory = schedule.trajectory.moved(-driven)
     moved = replace(
         schedule,
         path=ahead,
-        trajectory=schedule.trajectory.moved(-driven),
+        trajectory=trajectory,
+        proven=trajectory if schedule.is_proven else None,
         turns=(*(turn - driven for turn in schedule.turns if turn >= driven), *turns),
         slow=(*_moved(slow_between(schedule.slow, driven, path.length), -driven), *slow),
         sighted_until=max(schedule.sighted_until - driven, 0.0),

@@ -98,6 +98,7 @@ class Schedule:
             come [s]; inf if it doesn't.
         waits_for_gap: Whether it stands until what crosses is gone, by a law that goes on then.
         held_up: Set while it stands and knows no way on past what moves.
+        proven: The last law from all of which it was proven to stand before anything touches it.
     """
 
     path: Path
@@ -123,6 +124,12 @@ class Schedule:
     frozen_since: float = math.inf
     waits_for_gap: bool = False
     held_up: HeldUp | None = None
+    proven: Trajectory | None = None
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether from all of the trajectory it stands before anything touches it."""
+        return self.trajectory is self.proven
 
     @property
     def is_blocked(self) -> bool:

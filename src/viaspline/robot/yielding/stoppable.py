@@ -25,22 +25,22 @@ from viaspline.robot.perception.perceive import Sighting
 from viaspline.robot.replanning.deadline import STANDING_WORK_S
 from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
+from viaspline.robot.yielding.certified_stop import (
+    STAY_S,
+    StopAsked,
+    certified_stop,
+    kept_or_stopped,
+    stay_meant,
+)
 from viaspline.robot.yielding.held_up import rests
 from viaspline.tracks.foresight import Foresight
 from viaspline.tracks.patience import FROZEN, MAX_FROZEN_S, UNSEEING
-from viaspline.trajectory.passive_safety import (
-    SAME_PLACE_M,
-    PassivePremises,
-    passive_law,
-    stop_of,
-)
+from viaspline.trajectory.passive_premises import SAME_PLACE_M, PassivePremises
+from viaspline.trajectory.passive_safety import stop_of
 from viaspline.trajectory.retime import braking
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
-
-LASTING_S = 1.0
-"""A law goes on for so long if it may, and then stops; there is another look long before [s]."""
 
 NARROWEST_M = 0.2
 """Nothing that moves comes through a gap that is narrower [m]."""
@@ -95,10 +95,12 @@ def stoppable(
     """A schedule by which the robot is at rest before anything that it may meet touches it.
 
     It goes on by what it means to do as far as that is proven: nothing is faster than the mission
-    says, and nothing appears inside of what its sensor sees. Where not even braking at once is, it
-    stops as was proven by an earlier look, on the path on which that was. One that follows exactly
-    and stands until what crosses is gone sets off no sooner. With a limit of the jerk it may brake
-    more suddenly than that, and the law says so.
+    says, nothing appears inside of what its sensor sees, and what is on the map moves as that says.
+    It stops where none of that comes, if it can: see ``certified_stop``. Where not even braking at
+    once is proven, it stops as an earlier look has proven, on the path on which that was, or keeps
+    to all that it has proven. One that follows exactly and stands until what crosses is gone sets
+    off no sooner. With a limit of the jerk it may brake more suddenly than that, and the law says
+    so.
 
     Args:
         task: What is asked of the drive.
@@ -110,9 +112,11 @@ def stoppable(
     """
     robot = task.mission.robot
     things = robot.moving
-    has_law = after.giving_up is None and not progress.finished and progress.dwell is None
+    has_law = after.giving_up is None and not progress.finished
     if things is None or things.safety == "none" or not has_law:
         return after
+    if progress.dwell is not None:
+        return _staying(task, progress, after)
     if rests(knowledge, after, progress.time) and after.path is before.path:
         return after
     now, brake = progress.time, task.limits.brake
@@ -131,22 +135,35 @@ def stoppable(
     strict = Foresight(top_speed=things.max_speed_mps, accel=ANY_ACCEL_MPS2)
     premises = PassivePremises(
         _tubes(knowledge, sight.time, strict), sight.time, things.max_speed_mps, sight.eye,
-        sight.reach, sight.mouths,
+        sight.reach, sight.mouths, knowledge.charted_moving,
     )  # fmt: skip
     keep = task.requirements.outer_radius + task.requirements.tracking_error
     upper = _in_even_pieces(meant.trajectory, now, brake)
-    law, proven = passive_law(
-        meant.path, upper, premises, keep, (task.limits.max_accel, brake), now, LASTING_S
-    )
-    if not proven:
+    hold = STAY_S if meant.is_round else task.mission.route.hold_s
+    stay = stay_meant(meant.trajectory, meant.path, progress.distance, hold)
+    proven = before.trajectory if before.is_proven and meant.path is before.path else None
+    limits = (task.limits.max_accel, brake)
+    asked = StopAsked(meant.path, upper, premises, keep, limits, now, stay, proven)
+    law = certified_stop(asked)
+    if law is None:
         law = stop_of(before.trajectory, now, brake)
+        law = kept_or_stopped(asked, law) if meant.path is before.path else law
         meant = meant if meant.path is before.path else before
-    if task.limits.max_jerk is not None:
+    if task.limits.max_jerk is not None and law is not proven:
         law = replace(law, over_jerk_until=float(law.distances[-1]))
     here = progress.distance + SAME_PLACE_M
     is_frozen = speed == 0.0 and law.distances[-1] <= here < upper.distances[-1]
     since = min(meant.frozen_since, now) if is_frozen else math.inf
-    return _patient(robot, replace(meant, trajectory=law, frozen_since=since), now)
+    return _patient(robot, replace(meant, trajectory=law, proven=law, frozen_since=since), now)
+
+
+def _staying(task: DriveTask, progress: Progress, schedule: Schedule) -> Schedule:
+    """The schedule of a robot at a station, which doesn't leave before it has looked again."""
+    law, now = schedule.trajectory, progress.time
+    there = float(law.state_at(now + task.reaction)[0])
+    if there <= float(law.state_at(now)[0]) + SAME_PLACE_M:
+        return schedule
+    return replace(schedule, trajectory=braking(progress.distance, 0.0, task.limits.brake, now))
 
 
 def _patient(robot: RobotSpec, schedule: Schedule, now: float) -> Schedule:

@@ -23,7 +23,8 @@ from viaspline.robot.perception.moving.track_sightings import TrackedSightings
 from viaspline.robot.perception.moving.tracking_premises import TrackingPremises
 from viaspline.tracks.foresight import Foresight
 from viaspline.trajectory.limits import Limits
-from viaspline.trajectory.passive_safety import PassivePremises, passive_law, stop_of
+from viaspline.trajectory.passive_premises import PassivePremises
+from viaspline.trajectory.passive_safety import passive_law, stop_of
 from viaspline.trajectory.retime import braking, retime
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
