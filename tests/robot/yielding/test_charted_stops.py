@@ -67,7 +67,8 @@ def mission(known: list[Mover], unseen: list[Mover], sight: float, **route: Any)
         "moving": {"max_speed_mps": 1, "safety": "passive"},
     }
     route = {"start": [0, 0], "goal": [3, 0], **route}
-    world = {"known": known, "unseen": unseen}
+    carts = [{**cart, "name": f"cart {i}"} for i, cart in enumerate(known)]
+    world = {"known": carts, "unseen": unseen}
     return vs.Mission.model_validate({"world": world, "robot": robot, "route": route})
 
 
@@ -118,7 +119,7 @@ sides = st.floats(-2.0, 2.0).map(lambda side: round(side, 1))
     st.builds(hidden, st.tuples(sides, sides, sides), st.floats(3.2, 5.0)),
     st.floats(0.8, 2.5),
 )
-@settings(max_examples=30)
+@settings(max_examples=12)
 def test_nothing_touches_it_while_it_moves(carts: list[Mover], ghost: Mover, sight: float) -> None:
     """Whatever comes unseen, and known things as well: tried by samples against shapely."""
     try:
