@@ -32,6 +32,7 @@ from viaspline.spacetime.timed_drive import TimedDrive
 from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.retime import retime
+from viaspline.trajectory.trajectory import Trajectory
 from viaspline.whole_plan import stations
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
@@ -44,9 +45,18 @@ def _stations(path: Path, mission: Mission) -> Sequence[Station]:
     return stations(path, mission.robot)
 
 
+FastestLaw = Callable[[Path, Mission, Sequence[Station]], Trajectory]
+"""The fastest law on the path of a mission, with its stops, where nothing moves."""
+
+
+def _fastest(path: Path, mission: Mission, stops: Sequence[Station]) -> Trajectory:
+    return retime(path, limits_of(mission.robot), stops, zones=mission.world.speed_zones)
+
+
 def planar_plan(
-    plan: PlanFile, mission: Mission, world: World | None = None, stops_on: StopsOn = _stations
-) -> Plan:
+    plan: PlanFile, mission: Mission, world: World | None = None, stops_on: StopsOn = _stations,
+    fastest: FastestLaw = _fastest,
+) -> Plan:  # fmt: skip
     """The plan of a file, of which nothing is believed that can be proven.
 
     Args:
@@ -54,6 +64,7 @@ def planar_plan(
         mission: As it was planned.
         world: What it has on its map, if that is packed already.
         stops_on: Where its robot has to stop on a path.
+        fastest: See ``FastestLaw``.
 
     Raises:
         SavedPlanError: It isn't a plan of the mission, its path isn't clear, or its proof or its
@@ -86,7 +97,7 @@ def planar_plan(
         law = timed.trajectory
     else:
         stops = stops_on(path, mission)
-        law = retime(path, problem.limits, stops, zones=mission.world.speed_zones)
+        law = fastest(path, mission, stops)
         law = law_of_file(plan, path, law, problem.limits, stops)
     return Plan(mission, world, path, certificate, account, law, error, timed)
 

@@ -77,6 +77,24 @@ def stops_on_laps(path: Path, mission: Mission) -> list[Station]:
     return _halting(stations(path, mission.robot), path, mission.route.laps)
 
 
+def law_of_laps(path: Path, mission: Mission, stops: Sequence[Station]) -> Trajectory:
+    """The fastest law of a patrol in the plane, which stops after each lap: the same in all laps.
+
+    Laps that are timed all at once are timed otherwise where the jerk is limited, for there a law
+    is a local optimum.
+
+    Args:
+        path: All of its laps, each like the first one.
+        mission: With so many laps.
+        stops: Where it stops, at the end of each lap among others.
+    """
+    seams = seams_of(path, mission.route.laps)
+    a_lap = Path(path.spans[: len(path.spans) // mission.route.laps], vias=[])
+    own = [stop for stop in stops if stop.distance < seams[1] - SAME_M]
+    law = retime(a_lap, limits_of(mission.robot), own, zones=mission.world.speed_zones)
+    return repeated_law(law, seams, law.duration)
+
+
 def flown_stops_on_laps(problem: SpatialProblem, path: Path) -> list[Station]:
     """Where a patrol in space hovers: at its stations, and at its start after each lap.
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from viaspline.bounded_file import is_there
 from viaspline.errors import SavedPlanError
 from viaspline.fleet.among_moving import proven_among
-from viaspline.fleet.patrols.driven_laps import flown_stops_on_laps, stops_on_laps
+from viaspline.fleet.patrols.driven_laps import flown_stops_on_laps, law_of_laps, stops_on_laps
 from viaspline.fleet.patrols.take_off_first import flown_headings_on_laps
 from viaspline.fleet.saved.fleet_file import FleetFile
 from viaspline.fleet.space.timed_past_moving import past_moving
@@ -85,7 +85,7 @@ class SavedRobots:
         if asked.route.corridor is not None and mission.route.via != asked.route.via:
             world = World.known(mission)
         if asked.route.is_patrol:
-            found = planar_plan(file, mission, world, stops_on_laps)
+            found = planar_plan(file, mission, world, stops_on_laps, law_of_laps)
         else:
             found = planar_plan(file, mission, world)
         if not self.fleet.world.moving:
