@@ -73,7 +73,9 @@ class Studio:
     def client(self, origin: str | None = "own", query: str = "") -> Iterator[Client]:
         host = f"127.0.0.1:{self.address.port}"
         asked: Any = f"http://{host}" if origin == "own" else origin
-        with connect(f"ws://{host}/talk{query}", origin=asked, max_size=None) as socket:
+        with connect(
+            f"ws://{host}/talk{query}", origin=asked, max_size=None, ping_interval=None
+        ) as socket:
             yield Client(socket, json.loads(socket.recv(PATIENCE)))
 
 

@@ -94,7 +94,7 @@ def drivability_in_space(path: Path, trajectory: Trajectory, robot: RobotSpec) -
         >>> bend = Path([[(0, 0, 9), (0, 0.1, 9), (0, 0.1, 9), (0.1, 0.1, 9)]], vias=[])
         >>> law = retime(bend, Limits(max_speed=2, max_accel=1))
         >>> drivability_in_space(bend, law, RobotSpec(radius_m=0.3)).reasons[0].text
-        "its sharpest bend has a radius of 0.035 m, less than the robot's own 0.3 m"
+        "its sharpest bend has a radius of 0.027 m, less than the robot's own 0.3 m"
     """
     drive = _Drive(path, trajectory, robot, World([]), closed=False)
     sharpest, radius = drive.sharpest
