@@ -73,6 +73,7 @@ class Studio:
     def client(self, origin: str | None = "own", query: str = "") -> Iterator[Client]:
         host = f"127.0.0.1:{self.address.port}"
         asked: Any = f"http://{host}" if origin == "own" else origin
+        # No pings: while kernels are compiled the server may not answer one in time.
         with connect(
             f"ws://{host}/talk{query}", origin=asked, max_size=None, ping_interval=None
         ) as socket:
