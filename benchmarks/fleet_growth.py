@@ -21,6 +21,7 @@ import viaspline as vs
 from viaspline.fleet.courses import courses_of
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
+from viaspline.fleet.late_share import arrivals_of, late_share
 from viaspline.fleet.laying.lay_paths import lay_paths
 from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import rides_of
@@ -45,10 +46,7 @@ def fleet_of(count: int, seed: int) -> vs.Fleet:
 
 def lateness(rides, courses, timing) -> float:
     """Of all that are served, over what they would take alone."""
-    laws = timing.laws.packed
-    late = laws.arrive[courses.packed.first[1:] - 1] - rides.alone - rides.packed.depart
-    served = laws.is_timed
-    return float(late[served].sum() / rides.alone[served].sum())
+    return late_share(rides, arrivals_of(courses, timing.laws))
 
 
 def measured(count: int, seed: int, improve: float) -> tuple[list[float], str]:

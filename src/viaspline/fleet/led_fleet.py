@@ -11,7 +11,6 @@ from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_order
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.laying.alone_paths import AlonePaths
-from viaspline.fleet.laying.kept_paths import PathAlone
 from viaspline.fleet.laying.resting_places import all_rests
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
@@ -75,14 +74,13 @@ def is_dense(fleet: Fleet, alone: AlonePaths) -> bool:
         alone: What each robot does if it is alone. One that has no path, or something that moves,
             is nothing for a lattice.
     """
-    if fleet.world.moving or len(alone.plans) < max(LEAST_LED, len(fleet.members)):
+    plans = alone.plans
+    if fleet.world.moving or len(plans) < max(LEAST_LED, len(fleet.members)):
         return False
     reaches = [alone.reach(fleet, one) for one in fleet.members]
     rests = all_rests(fleet.members, reaches, {})
     met = 0
     for member, reach in zip(fleet.members, reaches, strict=True):
-        found = alone.of[member.name]
-        if isinstance(found, PathAlone):
-            own = rests.of_robot(member.name)
-            met += rests.near(found.plan.path.spans, reach, own).size
+        own = rests.of_robot(member.name)
+        met += rests.near(plans[member.name].path.spans, reach, own).size
     return met >= DENSE_RESTS * len(fleet.members)

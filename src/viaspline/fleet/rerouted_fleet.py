@@ -104,12 +104,10 @@ def _key(stretch: ContestedStretch) -> tuple[int, int, int, int]:
 
 def _score(timed: TimedFleet, asked: Floats) -> tuple[int, float]:
     """How many aren't served, and how late the others are in all, weighed by priority [s]."""
-    ways, laws = timed.ways, timed.timing.laws.packed
+    ways = timed.ways
     weight = priority_weights([one.priority for one in ways.members])
-    served = np.array([k not in timed.timing.blocked for k in range(len(ways.members))])
-    ends = laws.arrive[ways.courses.packed.first[1:] - 1]
-    late = ends - ways.rides.packed.depart - asked
-    return int((~served).sum()), float((weight * np.where(served, late, 0.0)).sum())
+    late = timed.arrivals() - ways.rides.packed.depart - asked
+    return len(timed.timing.blocked), float((weight * np.where(np.isfinite(late), late, 0.0)).sum())
 
 
 def _worst(timed: TimedFleet) -> Iterator[ContestedStretch]:

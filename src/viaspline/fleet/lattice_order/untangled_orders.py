@@ -21,6 +21,7 @@ from viaspline.kernels.fleet.circular_orders import BoxWaits, box_waits, in_circ
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 
+EVERY_BOX = slice(None)
 MOST_TRIED = 200
 """Crossings that are given other orders."""
 
@@ -49,7 +50,7 @@ def untangled_orders(
         found = np.unique(graph.crossings.crossing[graph.in_circles(second, circles)])
         for crossing in found[np.argsort(orders.clarity[found], kind="stable")].tolist():
             boxes = np.flatnonzero(graph.crossings.crossing == crossing)
-            if graph.in_circles(second, circles)[boxes].any():
+            if graph.in_circles(second, circles, boxes).any():
                 circles = _with_another_order(graph, orders, second, circles, boxes)
                 left -= 1
     owner = np.repeat(np.arange(len(courses.names)), np.diff(courses.packed.first))
@@ -96,7 +97,8 @@ class _Graph(NamedTuple):
         """The nodes that are in circles, or between two, (nodes,)."""
         return in_circles(self.courses, self.crossings, self.waits, second)
 
-    def in_circles(self, second: Flags, circles: Flags) -> Flags:
-        """Which boxes are part of one, (boxes,)."""
-        found: Flags = second & circles[self.crossings.cell] & circles[self.waits.awaited]
+    def in_circles(self, second: Flags, circles: Flags, boxes: Ints | slice = EVERY_BOX) -> Flags:
+        """Which of some boxes are part of one, (k,)."""
+        cells, awaited = self.crossings.cell[boxes], self.waits.awaited[boxes]
+        found: Flags = second[boxes] & circles[cells] & circles[awaited]
         return found

@@ -83,8 +83,8 @@ def certified_stop(asked: StopAsked) -> Trajectory | None:
     if until["soon"] == math.inf:
         return soon
     far, _ = _law(asked, math.inf)
-    laws = {"soon": soon, "far": far, **_kept(asked)}
-    for name, law in laws.items():
+    others = {"far": far, **_kept(asked)}
+    for name, law in others.items():
         until[name] = left_alone_until(asked, law)
         if until[name] == math.inf:
             return law
@@ -92,7 +92,7 @@ def certified_stop(asked: StopAsked) -> Trajectory | None:
     stop_until = left_alone_until(asked, stop)
     best = max(until, key=lambda name: until[name])
     if until[best] > stop_until + LATER_S:
-        return laws[best]
+        return {"soon": soon, **others}[best]
     stay = min(stop_until - stop.end_time - SOONER_S, STAY_S)
     return _law(asked, LASTING_S, max(stay, 0.0))[0]
 
