@@ -50,6 +50,7 @@ class _Label:
     inside: float
     gap: float
     area: shapely.Geometry | None
+    is_only_within: bool = False
 
 
 @dataclass(frozen=True)
@@ -117,6 +118,21 @@ class Labels:
         """
         self._labels.append(_Label(text, at, rank, colour, size, inside, gap, area))
 
+    def add_within(
+        self, text: str, area: shapely.Geometry, *, rank: int = 5, size: float = SMALL_PT
+    ) -> None:
+        """Ask for a label that is left out where it doesn't fit within what it names.
+
+        Args:
+            text: One line or more.
+            area: A polygon without holes that matter [m]: the label goes anywhere within its ring.
+            rank: Lower ranks choose their place first.
+            size: The size of the font [points].
+        """
+        x, y = shapely.get_coordinates(shapely.point_on_surface(area))[0].tolist()
+        ring = shapely.Polygon(shapely.get_exterior_ring(area))
+        self._labels.append(_Label(text, (x, y), rank, INK, size, 0.0, 0.0, ring, True))
+
     def place(self, lines: Floats, markers: Floats, marker_size: float = 9.0) -> None:
         """Put the labels where they hide least in all; one that has no free place is left out.
 
@@ -142,17 +158,24 @@ class Labels:
             BoxSums.of_image(*contrasts(self._axes), STEP_PX),
             marker_size,
         )
-        sizes = [self._measure(label) for label, _ in asked]
-        places = [
-            self._in_area(label, size, ground)
-            or _places(label, anchor, size, self._room_on(label), ground)
-            for (label, anchor), size in zip(asked, sizes, strict=True)
+        to_choose = [
+            (label, anchor, some)
+            for label, anchor in asked
+            if (some := self._choices(label, anchor, ground)) is not None
         ]
-        chosen = least_cost_places(places, self._written())
-        for (label, anchor), some, place in zip(asked, places, chosen, strict=True):
+        chosen = least_cost_places([some for *_, some in to_choose], self._written())
+        for (label, anchor, some), place in zip(to_choose, chosen, strict=True):
             if place != LEFT_OUT:
                 box = some.boxes[place]
                 self._draw(label, anchor, 0.5 * (box[:2] + box[2:]), some.leaders[place])
+
+    def _choices(self, label: _Label, anchor: Floats, ground: _Ground) -> LabelPlaces | None:
+        """Where a label may go; None where it has to be within what has no room for it."""
+        size = self._measure(label)
+        within = self._in_area(label, size, ground)
+        if within is not None or label.is_only_within:
+            return within
+        return _places(label, anchor, size, self._room_on(label), ground)
 
     def _room_on(self, label: _Label) -> float:
         """Width of the thing that a label names, on the picture [pixels]."""

@@ -3,9 +3,11 @@ from __future__ import annotations
 import csv
 import io
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 from PIL import Image
 
 from viaspline.mission.model import Mission
@@ -13,7 +15,7 @@ from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.mission.shapes.solids import Prism, RoundedSegment
 from viaspline.report.space.elevation_profile import silhouette
 from viaspline.report.space.spatial_film import flight_frames
-from viaspline.report.space.spatial_picture import band_of, scene_of
+from viaspline.report.space.spatial_picture import band_of, drawn_page, scene_of
 from viaspline.report.space.spatial_results import spatial_plan_contents, spatial_run_contents
 from viaspline.report.space.spatial_scene import NamedSolid
 from viaspline.report.space.spatial_tables import spatial_plan_tables
@@ -105,3 +107,24 @@ def test_what_stands_beside_a_path_is_told_from_what_stands_under_it() -> None:
     beside = silhouette(cable, np.array([[3.0, 50, 5]]), 0.5)
     assert beside.low[0] == pytest.approx(19.9)
     assert beside.high[0] == pytest.approx(20.1)
+
+
+def test_the_height_of_a_roof_is_written_on_it_beside_the_path(flown: SpatialPlan) -> None:
+    sheet = drawn_page(flown, "tower")
+    sheet.figure.draw_without_rendering()
+    (text,) = [one for one in sheet.map.texts if one.get_text() == "12"]
+    box = shapely.box(*text.get_window_extent().extents)
+    to_pixels = sheet.map.transData.transform
+    hall = shapely.Polygon(to_pixels([(50, 30), (70, 30), (70, 50), (50, 50)]))
+    places = flown.path.at_distance(np.linspace(0.0, flown.path.length, 4000))
+    assert hall.contains(box)
+    assert not box.intersects(shapely.LineString(to_pixels(places[:, :2])))
+
+
+def test_what_stands_on_high_ground_is_not_overhead(flown: SpatialPlan) -> None:
+    ring = RoundedRing([[(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)]])
+    hut, bridge = NamedSolid(Prism(ring, 100.0, 120.0)), NamedSolid(Prism(ring, 115.0, 120.0))
+    scene = replace(scene_of(flown), flat=110.0)
+    assert not scene.is_overhead(hut)
+    assert scene.is_overhead(bridge)
+    assert replace(scene, flat=None).is_overhead(hut)  # over zero, where no ground is known

@@ -26,6 +26,7 @@ from viaspline.report.fleet.fleet_map import robot_keys, scene_of
 from viaspline.report.fleet.fleet_marks import LEAST_ARROW_PX, MAX_PLAIN, paths_of
 from viaspline.report.fleet.flown_scene import FlownScene
 from viaspline.report.fleet.places_over_time import FleetMotion, span_of
+from viaspline.report.labels import Labels
 from viaspline.report.moving_film import arrow_line
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Box, new_sheet
@@ -148,6 +149,9 @@ class _FleetStage:
         many = len(names) > MAX_PLAIN
         told = np.array([name in filmed.colours.told for name in names], bool)
         handles = filmed.scene.draw(axes, sheet.pixels_per_metre)
+        labels = Labels(axes)
+        filmed.scene.name(labels)
+        labels.place(np.vstack([*filmed.paths, np.zeros((0, 2))]), np.zeros((0, 2)))
         axes.add_collection(
             LineCollection(
                 list(filmed.paths), colors=colours, linewidths=0.3 if many else 0.7, alpha=0.4,

@@ -20,7 +20,7 @@ from viaspline.mission.shapes.solids import RoundedSegment
 from viaspline.mission.space.flying_body import FlyingBody
 from viaspline.report import style
 from viaspline.report.labels import Labels
-from viaspline.report.space.solid_marks import draw_solids
+from viaspline.report.space.solid_marks import draw_solids, name_roofs
 from viaspline.report.space.space_view import draw_space_of_many
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
 
@@ -45,11 +45,12 @@ class FlownScene:
         return cls(stands_in(plan.fleet), widest)
 
     def draw(self, axes: Axes, pixels_per_metre: float) -> list[Artist]:
-        """Draw it from above; returns handles for the legend."""
-        return draw_solids(axes, self.stands, pixels_per_metre)
+        """Draw it from above, at any scale; returns handles for the legend."""
+        return draw_solids(axes, self.stands)
 
     def name(self, labels: Labels) -> None:
-        """Ask for the names of what has one, but of cables, masts and balls."""
+        """Ask for the names of what has one, but of cables, masts and balls, and for heights."""
+        name_roofs(labels, self.stands)
         for one in self.stands.solids:
             if one.name and not isinstance(one.solid, RoundedSegment):
                 x, y = shapely.get_coordinates(shapely.point_on_surface(one.shadow))[0].tolist()

@@ -33,8 +33,8 @@ def draw_mission(mission: Mission, axes: Axes) -> list[Artist]:
     if mission.is_spatial:
         standing = standing_scene(mission)
         view = view_of(line, standing.corners(), standing.bounds, mission.robot.clearance_m)
-        sheet = map_on(axes, view)
-        handles = draw_standing(standing, sheet)
+        map_on(axes, view)
+        handles = draw_standing(standing, axes, labels)
     else:
         required = Requirements.of(mission).required
         scene = Scene.of(World.known(mission), required, mission.world.unseen_standing)

@@ -54,7 +54,7 @@ def animate_flight(run: SpatialRun, ax: Axes | None, pace: float, fps: float) ->
     axes = axes_from(ax)
     scene = scene_of(run.plan)
     sheet = map_on(axes, plan_view_of(run.plan, scene))
-    handles = draw_plan_view(axes, sheet.pixels_per_metre, scene, run.plan)
+    handles = draw_plan_view(axes, scene, run.plan)
     (trail,) = axes.plot(
         [], [], color=style.UNSEEN, linewidth=2.2, zorder=9, label="flown",
         scalex=False, scaley=False,

@@ -14,10 +14,10 @@ from matplotlib.axes import Axes
 from viaspline.maps.terrain import Terrain
 from viaspline.mission.model import Mission
 from viaspline.report import style
+from viaspline.report.labels import Labels
 from viaspline.report.notebook.plain_axes import map_on
 from viaspline.report.path_marks import draw_path
-from viaspline.report.sheet import Sheet
-from viaspline.report.space.solid_marks import draw_solids
+from viaspline.report.space.solid_marks import draw_solids, name_roofs
 from viaspline.report.space.space_view import draw_in_perspective
 from viaspline.report.space.spatial_picture import draw_plan_view, plan_view_of, scene_of
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
@@ -34,8 +34,8 @@ def draw_spatial_plan(plan: SpatialPlan, axes: Axes) -> list[Artist]:
     if axes.name == "3d":
         draw_in_perspective(cast("Axes3D", axes), [(plan.path, style.PATH)], scene)
         return []
-    sheet = map_on(axes, plan_view_of(plan, scene))
-    return draw_plan_view(axes, sheet.pixels_per_metre, scene, plan)
+    map_on(axes, plan_view_of(plan, scene))
+    return draw_plan_view(axes, scene, plan)
 
 
 def draw_spatial_run(run: SpatialRun, axes: Axes) -> list[Artist]:
@@ -59,13 +59,14 @@ def standing_scene(mission: Mission) -> SpatialScene:
     return SpatialScene(solids, terrain, flat, world.bounds)
 
 
-def draw_standing(scene: SpatialScene, sheet: Sheet) -> list[Artist]:
-    """Solids and ground from above, in the bounds of their world."""
-    handles = draw_solids(sheet.map, scene, sheet.pixels_per_metre)
+def draw_standing(scene: SpatialScene, axes: Axes, labels: Labels) -> list[Artist]:
+    """Solids and ground from above, in the bounds of their world; asks for heights."""
+    handles = draw_solids(axes, scene)
+    name_roofs(labels, scene)
     if scene.bounds is not None:
         x0, y0, x1, y1 = scene.bounds
         corners = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])
-        handles += sheet.map.plot(
+        handles += axes.plot(
             *corners.T, color=style.INK, linewidth=1.0, label="bounds", scalex=False, scaley=False
         )
     return handles

@@ -19,7 +19,7 @@ from viaspline.report.path_marks import draw_arrows
 from viaspline.report.space.elevation_profile import GROUND
 from viaspline.report.space.flown_clearance import flown_clearance
 from viaspline.report.space.moving_in_space import draw_met_in_space
-from viaspline.report.space.solid_marks import clear_contour_labels, draw_solids
+from viaspline.report.space.solid_marks import clear_contour_labels, draw_solids, name_roofs
 from viaspline.report.space.space_view import draw_space_of_many
 from viaspline.report.space.spatial_picture import (
     body_subtitle,
@@ -95,7 +95,7 @@ def _draw_map(sheet: SpatialSheet, scene: SpatialScene, run: SpatialRun) -> list
     """The flight from above; returns what belongs in a legend."""
     plan, axes = run.plan, sheet.map
     labels = Labels(axes)
-    handles = draw_solids(axes, scene, sheet.pixels_per_metre)
+    handles = draw_solids(axes, scene)
     handles += _draw_unseen(axes, labels, run)
     planned = polyline(plan.path.spans)
     handles += axes.plot(
@@ -110,6 +110,7 @@ def _draw_map(sheet: SpatialSheet, scene: SpatialScene, run: SpatialRun) -> list
     draw_arrows(axes, run.positions[:, :2], style.INK, avoid=places, every=HEADS_PX)
     handles += vias + _draw_replans(axes, labels, run)
     handles += draw_met_in_space(axes, labels, run)
+    name_roofs(labels, scene)
     clear_contour_labels(axes)
     labels.place(np.vstack([planned, run.positions[:, :2]]), places)
     return handles

@@ -21,6 +21,7 @@ from viaspline.mission.shapes.solids import GridPrism, Prism
 from viaspline.report import style
 from viaspline.report.canvas import outline, renderer_of
 from viaspline.report.label_layout import overlaps
+from viaspline.report.labels import Labels
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
 
 MAX_HEIGHTS_WRITTEN: Final = 40
@@ -31,21 +32,17 @@ MAX_CONTOUR_NODES: Final = 400
 
 CONTOUR_LABEL: Final = "height on a contour line"
 
-LEAST_LABEL_PX: Final = 26
-"""Width of an outline on the page that has room for a height."""
+HEIGHT_RANK: Final = 8
+"""Of heights among labels: names and warnings choose their places first."""
 
 
-HEIGHT_OFFSETS_PT: Final = (0.0, -9.0, 9.0, -18.0, 18.0)
-"""Where a height goes that would lie on another one."""
-
-
-def draw_solids(axes: Axes, scene: SpatialScene, pixels_per_metre: float) -> list[Artist]:
+def draw_solids(axes: Axes, scene: SpatialScene) -> list[Artist]:
     """Draw what stands in the world and the ground under it; returns handles for the legend."""
     handles: list[Artist] = []
     if scene.terrain is not None:
         handles.append(_draw_contours(axes, scene.terrain))
     prisms = [one for one in scene.solids if isinstance(one.solid, Prism | GridPrism)]
-    overhead = [one for one in prisms if one.heights[0] > 0.0 and math.isfinite(one.heights[0])]
+    overhead = [one for one in prisms if scene.is_overhead(one)]
     standing = [one for one in prisms if one not in overhead]
     lines = [one for one in scene.solids if not isinstance(one.solid, Prism | GridPrism | Voxels)]
     if standing:
@@ -67,7 +64,6 @@ def draw_solids(axes: Axes, scene: SpatialScene, pixels_per_metre: float) -> lis
         handles.append(face)
     fields = [one.solid for one in scene.solids if isinstance(one.solid, Voxels)]
     handles += [_draw_voxels(axes, voxels) for voxels in fields]
-    _write_heights(axes, [*standing, *overhead, *lines], pixels_per_metre)
     return handles
 
 
@@ -133,30 +129,17 @@ def _draw_voxels(axes: Axes, voxels: Voxels) -> Artist:
     return Patch(facecolor="#8d8d8d", edgecolor="none", label="voxels, the darker the higher")
 
 
-def _write_heights(axes: Axes, solids: list[NamedSolid], pixels_per_metre: float) -> None:
-    """The heights of roofs on those outlines that have room for them."""
-    wide = []
-    for one in solids:
-        x0, y0, x1, y1 = shapely.bounds(one.shadow).tolist()
-        room = min(x1 - x0, 2.5 * (y1 - y0)) * pixels_per_metre
-        if room >= LEAST_LABEL_PX and math.isfinite(one.heights[1]):
-            wide.append((room, one))
-    wide.sort(key=lambda each: -each[0])
-    renderer, written = renderer_of(axes.figure), np.zeros((0, 4))
-    for _, one in wide[:MAX_HEIGHTS_WRITTEN]:
-        low, high = one.heights
-        from_ground = not math.isfinite(low) or low <= 0.0
-        text = f"{high:g}" if from_ground else f"{low:g} - {high:g}"
-        x, y = shapely.get_coordinates(shapely.point_on_surface(one.shadow))[0].tolist()
-        note = axes.annotate(
-            text, (x, y), (0.0, 0.0), textcoords="offset points", size=style.SMALL_PT - 1,
-            color=style.INK, ha="center", va="center", zorder=3, annotation_clip=True,
-        )  # fmt: skip
-        for up in HEIGHT_OFFSETS_PT:
-            note.set_position((0.0, up))
-            box = np.array([note.get_window_extent(renderer).extents])
-            if not overlaps(box, written).any():
-                written = np.vstack((written, box))
-                break
-        else:
-            note.remove()
+def name_roofs(labels: Labels, scene: SpatialScene) -> None:
+    """Ask for the heights of the largest roofs, each within its outline where it has room."""
+    roofed = [one for one in scene.solids if _has_roof(one)]
+    sizes = [-float(shapely.area(one.shadow)) for one in roofed]
+    for k in np.argsort(sizes, kind="stable")[:MAX_HEIGHTS_WRITTEN].tolist():
+        low, high = (f"{round(end, 1):g}" for end in roofed[k].heights)
+        text = f"{low} - {high}" if scene.is_overhead(roofed[k]) else high
+        parts = shapely.get_parts(roofed[k].shadow)
+        largest = parts[int(np.argmax(shapely.area(parts)))]
+        labels.add_within(text, largest, rank=HEIGHT_RANK, size=style.SMALL_PT - 1)
+
+
+def _has_roof(one: NamedSolid) -> bool:
+    return not isinstance(one.solid, Voxels) and math.isfinite(one.heights[1])

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -22,6 +21,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.maps.voxels import Voxels
 from viaspline.mission.shapes.solids import GridPrism, Prism, RoundedSegment
 from viaspline.report import style
+from viaspline.report.space.seen_faces import Face, ball_faces, prism_faces, segment_within
 from viaspline.report.space.spatial_scene import SpatialScene
 
 GHOST_M: Final = 25.0
@@ -36,8 +36,6 @@ LEAST_SHARE: Final = 0.25
 
 MOST_TICKS: Final = 6
 """Of the longest side; shorter ones have fewer, lest their numbers touch."""
-
-Face = list[tuple[float, float, float]]
 
 
 def draw_space(figure: Figure, box: tuple[float, float, float, float], path: Path,
@@ -83,25 +81,33 @@ def draw_in_perspective(
         scene: What stands in the world.
     """
     lines = [path.at_distance(np.linspace(0.0, path.length, 400)) for path, _ in paths]
-    places = np.concatenate(lines)
-    low, high = places.min(axis=0), places.max(axis=0)
-    _draw_ground(axes, scene, low, high)
-    _draw_solids(axes, scene, lines)
+    shown = _shown(scene, np.concatenate(lines))
+    _draw_ground(axes, scene, shown)
+    _draw_solids(axes, scene, lines, shown)
     for line, (_, colour) in zip(lines, paths, strict=True):
         axes.plot(line[:, 0], line[:, 1], line[:, 2], color=colour, linewidth=1.6, zorder=9,
                   label="path")  # fmt: skip
         ends = line[[0, -1]]
         axes.scatter(ends[:, 0], ends[:, 1], ends[:, 2], color=[style.START, style.GOAL], s=12)
-    low[2] = min(low[2], _floor(scene, places))
-    wide = np.maximum(high - low, LEAST_SHARE * float((high - low).max()) + 1e-6)
-    sides, floor = 0.5 * (wide - (high - low))[:2], float(low[2])
-    axes.set_xlim(low[0] - sides[0], high[0] + sides[0])
-    axes.set_ylim(low[1] - sides[1], high[1] + sides[1])
-    axes.set_zlim(floor, floor + wide[2])
+    low, high = shown
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    axes.set_zlim(low[2], high[2])
+    wide = high - low
     axes.set_box_aspect(wide.tolist())
     for one, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), wide / wide.max(), strict=True):
         one.set_major_locator(MaxNLocator(max(round(MOST_TICKS * float(share)), 1)))
     axes.view_init(elev=32, azim=-60)
+
+
+def _shown(scene: SpatialScene, places: Floats) -> tuple[Floats, Floats]:
+    """Lowest and highest corner of what is shown [m]: the path, from the ground under it up."""
+    low, high = places.min(axis=0), places.max(axis=0)
+    low[2] = min(low[2], _floor(scene, places))
+    wide = np.maximum(high - low, LEAST_SHARE * float((high - low).max()) + 1e-6)
+    aside = 0.5 * (wide - (high - low))
+    aside[2] = 0.0
+    return low - aside, low - aside + wide
 
 
 def _floor(scene: SpatialScene, places: Floats) -> float:
@@ -111,54 +117,57 @@ def _floor(scene: SpatialScene, places: Floats) -> float:
     return float(known.min()) if known.size else float(places[:, 2].min())
 
 
-def _draw_ground(axes: Axes3D, scene: SpatialScene, low: Floats, high: Floats) -> None:
+def _draw_ground(axes: Axes3D, scene: SpatialScene, shown: tuple[Floats, Floats]) -> None:
     if scene.terrain is None:
         return
-    x, y = (np.linspace(low[k], high[k], MAX_NODES) for k in (0, 1))
+    x, y = (np.linspace(shown[0][k], shown[1][k], MAX_NODES) for k in (0, 1))
     across, up = np.meshgrid(x, y)
     heights = scene.terrain.height_at(np.stack((across, up), axis=-1))
     axes.plot_surface(across, up, heights, color="#cdb98f", alpha=0.5, linewidth=0, shade=True)
 
 
-def _draw_solids(axes: Axes3D, scene: SpatialScene, lines: Sequence[Floats]) -> None:
+def _draw_solids(
+    axes: Axes3D, scene: SpatialScene, lines: Sequence[Floats], shown: tuple[Floats, Floats]
+) -> None:
+    """What stands there, as far as it is within what is shown."""
     places = np.concatenate(lines)
     track = shapely.MultiLineString([line[:, :2] for line in lines])
     apart = shapely.distance(track, scene.shadows) if len(scene.solids) else np.empty(0)
-    floor, roof = _floor(scene, places), float(places[:, 2].max()) + 20.0
     for k in np.argsort(apart, kind="stable")[:MAX_SOLIDS].tolist():
         solid = scene.solids[k].solid
         alpha = 0.45 if apart[k] <= GHOST_M else 0.1
         if isinstance(solid, Prism | GridPrism):
-            faces = _prism_faces(
-                scene.solids[k].shadow, max(solid.low, floor), min(solid.high, roof)
-            )
+            faces = prism_faces(scene.solids[k].shadow, (solid.low, solid.high), shown)
+            _draw_faces(axes, faces, style.OBSTACLE, style.OBSTACLE_EDGE, alpha)
         elif isinstance(solid, RoundedSegment):
-            ends = np.array([solid.first, solid.last])
-            axes.plot(*ends.T, color=style.OBSTACLES[1][1], linewidth=2.0, alpha=2.0 * alpha)
-            axes.scatter(*ends.T, color=style.OBSTACLES[1][1], s=4, alpha=2.0 * alpha)
-            continue
+            _draw_rounded(axes, solid, alpha, shown)
         else:
             _draw_cubes(axes, solid, places)
-            continue
-        for corners in sorted({len(face) for face in faces}):  # matplotlib pads others with noise
-            axes.add_collection3d(
-                Poly3DCollection(
-                    [face for face in faces if len(face) == corners], facecolor=style.OBSTACLE,
-                    edgecolor=style.OBSTACLE_EDGE, linewidth=0.3, alpha=alpha,
-                )
-            )  # fmt: skip
 
 
-def _prism_faces(shadow: shapely.Geometry, low: float, high: float) -> list[Face]:
-    """Walls and roof of a prism."""
-    parts = shapely.get_parts(shapely.simplify(shadow, 0.05))
-    faces: list[Face] = []
-    for part in parts.tolist():
-        ring = [(float(x), float(y)) for x, y, *_ in part.exterior.coords]
-        faces.append([(x, y, high) for x, y in ring])
-        for (x0, y0), (x1, y1) in pairwise(ring):
-            faces.append([(x0, y0, low), (x1, y1, low), (x1, y1, high), (x0, y0, high)])
-    return faces
+def _draw_faces(axes: Axes3D, faces: Sequence[Face], face: str, edge: str, alpha: float) -> None:
+    for corners in sorted({len(one) for one in faces}):  # matplotlib pads others with noise
+        axes.add_collection3d(
+            Poly3DCollection(
+                [one for one in faces if len(one) == corners], facecolor=face, edgecolor=edge,
+                linewidth=0.3, alpha=alpha,
+            )
+        )  # fmt: skip
+
+
+def _draw_rounded(
+    axes: Axes3D, solid: RoundedSegment, alpha: float, shown: tuple[Floats, Floats]
+) -> None:
+    """A ball as it is; a cable or a mast as its line, which is as good as all that is seen."""
+    fill, edge = style.OBSTACLES[1]
+    if solid.first == solid.last:
+        middle = np.array(solid.first)
+        if ((middle >= shown[0]) & (middle <= shown[1])).all():
+            _draw_faces(axes, ball_faces(solid), fill, edge, alpha)
+        return
+    part = segment_within(np.array([solid.first, solid.last]), shown)
+    if len(part):
+        axes.plot(*part.T, color=edge, linewidth=2.0, alpha=2.0 * alpha)
 
 
 def _draw_cubes(axes: Axes3D, voxels: Voxels, places: Floats) -> None:

@@ -23,7 +23,7 @@ from viaspline.report.profile_strips import Ticks
 from viaspline.report.sheet import Box, view_of
 from viaspline.report.space.elevation_profile import SAMPLES, ProfileRange, draw_profile
 from viaspline.report.space.moving_in_space import draw_moving_in_space
-from viaspline.report.space.solid_marks import clear_contour_labels, draw_solids
+from viaspline.report.space.solid_marks import clear_contour_labels, draw_solids, name_roofs
 from viaspline.report.space.space_view import draw_space
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
 from viaspline.report.space.spatial_sheet import SpatialSheet, spatial_sheet
@@ -62,7 +62,7 @@ def drawn_page(plan: SpatialPlan, name: str, dpi: int = style.DPI) -> SpatialShe
     )
     words = (proof_words(plan), body_subtitle(plan))
     sheet = spatial_sheet(plan_view_of(plan, scene), title, words, dpi)
-    handles = draw_plan_view(sheet.map, sheet.pixels_per_metre, scene, plan)
+    handles = draw_plan_view(sheet.map, scene, plan)
     handles += draw_profile(sheet.elevation, plan.path, scene, robot.radius_m, band_of(plan))
     _fill_strips(sheet, plan)
     draw_space(sheet.figure, sheet.view, plan.path, scene)
@@ -89,14 +89,11 @@ def plan_view_of(plan: SpatialPlan, scene: SpatialScene) -> Box:
     return view_of(polyline(plan.path.spans), scene.corners(), plan.world.bounds, margin)
 
 
-def draw_plan_view(
-    axes: Axes, pixels_per_metre: float, scene: SpatialScene, plan: SpatialPlan
-) -> list[Artist]:
+def draw_plan_view(axes: Axes, scene: SpatialScene, plan: SpatialPlan) -> list[Artist]:
     """Draw a plan in space as it is seen from above.
 
     Args:
         axes: They show the part of the world that is to be seen.
-        pixels_per_metre: Their scale.
         scene: What stands in the world.
         plan: What was planned.
 
@@ -104,7 +101,7 @@ def draw_plan_view(
         What belongs in a legend.
     """
     points = polyline(plan.path.spans)
-    handles = draw_solids(axes, scene, pixels_per_metre)
+    handles = draw_solids(axes, scene)
     labels = Labels(axes)
     handles.append(draw_path(axes, points))
     route = [via for via in plan.path.vias if via.kind == "detour" or via.index is not None]
@@ -112,6 +109,7 @@ def draw_plan_view(
     draw_arrows(axes, points, style.PATH, avoid=places)
     handles += vias + draw_tightest(axes, labels, plan.certificate)
     handles += draw_moving_in_space(axes, labels, plan)
+    name_roofs(labels, scene)
     clear_contour_labels(axes)
     labels.place(points, places)
     return handles

@@ -5,6 +5,7 @@ Tested through ``report/space/test_spatial_pictures``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -93,6 +94,12 @@ class SpatialScene:
         if self.terrain is not None:
             return self.terrain.height_at(places)
         return np.full(len(places), np.nan if self.flat is None else self.flat)
+
+    def is_overhead(self, one: NamedSolid) -> bool:
+        """Whether a solid begins above the ground under it; above zero where none is known."""
+        low = one.heights[0]
+        under = self.ground(shapely.get_coordinates(shapely.point_on_surface(one.shadow)))
+        return math.isfinite(low) and low > (float(under[0]) if np.isfinite(under[0]) else 0.0)
 
     def corners(self) -> Floats:
         """Corners of the boxes of the solids from above [m], shape (2 n, 2)."""
