@@ -91,3 +91,18 @@ def test_a_turn_on_the_spot_takes_its_time_beside_a_dwell_or_alone() -> None:
     stops = with_yaw_turns((Station(4.0, 5.0, "gauge"),), profile, 0.5)
     assert [(stop.distance, stop.dwell) for stop in stops] == [(4.0, 5.0), (8.0, 6.0)]
     assert yaw_speeds(profile, None, 9.0) == ()
+
+
+def test_what_is_looked_at_is_faced_on_arrival_where_the_path_turns_back() -> None:
+    out = [[0, 0, 5], [4, 0, 5], [8, 0, 5], [12, 0, 5]]
+    back = out[::-1]
+    ends = [(0, (0, 0, 5)), (1, (12, 0, 5)), (2, (0, 0, 5))]
+    vias = [PathVia(f"via {k}", at, "user", float(k), index=k) for k, at in ends]
+    profile = yaw_profile(Path([out, back], vias), FacingAlong(), [(1, (12.0, -3.0))])
+    assert np.allclose(
+        profile.at([0.0, 6.0, 12.0 - 1e-9, 12.0]), [0, -0.25 * math.pi] + 2 * [-math.pi / 2]
+    )
+    assert profile.turns == ()
+    assert math.isclose(
+        math.remainder(float(profile.at(24.0)) - math.pi, 2 * math.pi), 0, abs_tol=1e-9
+    )

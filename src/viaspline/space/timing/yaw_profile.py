@@ -143,14 +143,30 @@ def yaw_profile(
     headings = np.unwrap(facing.headings(places, ways))
     stops = path.stops
     for index, (x, y) in looks:
-        here = stops[index][1]
-        toward = FacingPlace(x, y).headings(np.asarray([stops[index][0].at]), ways[:1])[0]
-        general = float(np.interp(here, at, headings))
-        by = math.remainder(toward - general, 2.0 * math.pi)
-        before = stops[index - 1][1] if index > 0 else here
-        after = stops[index + 1][1] if index + 1 < len(stops) else here
-        headings = headings + by * _hat(at, before, here, after)
+        via, here = stops[index]
+        toward = float(FacingPlace(x, y).headings(np.asarray([via.at]), ways[:1])[0])
+        first = round(via.u) * (NODES_PER_SPAN + 1)  # of the nodes behind the via point
+        if index > 0:
+            share = _between(at[:first], stops[index - 1][1], here)
+            headings = _looking(headings, slice(0, first), share, first - 1, toward)
+        if index + 1 < len(stops):
+            share = 1.0 - _between(at[first:], here, stops[index + 1][1])
+            headings = _looking(headings, slice(first, None), share, first, toward)
+        if 0 < first < len(at):  # it stands as it looks, even where its path turns back
+            headings[first:] += _whole_turns(headings[first - 1] - headings[first])
     return _without_rounding(at, headings)
+
+
+def _looking(headings: Floats, part: slice, share: Floats, here: int, toward: float) -> Floats:
+    """Headings turned by their shares of what is left at a node to face something [rad]."""
+    turned = headings.copy()
+    turned[part] += math.remainder(toward - headings[here], 2.0 * math.pi) * share
+    return turned
+
+
+def _whole_turns(angle: float) -> float:
+    """The whole turns that are nearest to an angle [rad]."""
+    return 2.0 * math.pi * round(angle / (2.0 * math.pi))
 
 
 def _without_rounding(at: Floats, headings: Floats) -> YawProfile:
@@ -177,8 +193,8 @@ def _tangents(span: Floats, shares: Floats) -> Floats:
     return np.asarray(np.divide(ways, sizes, out=np.zeros_like(ways), where=sizes > 0.0))
 
 
-def _hat(at: Floats, before: float, here: float, after: float) -> Floats:
-    """1 at one place, 0 from its neighbours on, linear between."""
-    rise = np.where(at <= here, (at - before) / (here - before) if here > before else 1.0, 0.0)
-    fall = np.where(at > here, (after - at) / (after - here) if after > here else 0.0, 0.0)
-    return np.asarray(np.clip(rise, 0.0, 1.0) + np.clip(fall, 0.0, 1.0))
+def _between(at: Floats, first: float, last: float) -> Floats:
+    """0 up to a first place, 1 from a last one on, linear between."""
+    if last <= first:
+        return np.where(at < last, 0.0, 1.0)
+    return np.asarray(np.clip((at - first) / (last - first), 0.0, 1.0))
