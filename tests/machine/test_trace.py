@@ -55,3 +55,26 @@ def test_a_turn_on_the_spot_is_a_corner() -> None:
     curve, bound, _ = trace(places, headings)
     assert curve.length == pytest.approx(2.0)
     assert bound < 1e-9
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(deadline=None, max_examples=30)
+def test_a_body_that_rolls_back_as_it_stands_is_never_turned_round(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    speeds = np.clip(np.abs(np.linspace(-1.0, 1.0, 400)) - 0.2, 0.0, 1.0)  # it stands for a second
+    noise = np.repeat(0.05 * rng.standard_normal(8), 50)
+    places, headings = motion(speeds + noise, np.repeat(0.05 * rng.standard_normal(8), 50), 0.01)
+    curve, bound, u = trace(places, headings, 2.0)
+    assert np.linalg.norm(curve.evaluate(u) - places, axis=1).max() <= bound + 1e-9
+    assert bound < 0.3
+    if not curve.length:
+        return
+    fine = np.linspace(*curve.domain, 40 * len(curve.spans) + 1)
+    off = curve.heading(fine) - np.interp(fine, u, headings)
+    assert np.abs(np.remainder(off + np.pi, 2.0 * np.pi) - np.pi).max() < 0.7
+
+
+def test_a_disc_keeps_the_places_at_which_it_rolled_back() -> None:
+    places, headings = motion(np.repeat([1.0, -0.1, 1.0], 20), np.zeros(60), 0.01)
+    curve, bound, u = trace(places, headings)
+    assert np.linalg.norm(curve.evaluate(u) - places, axis=1).max() <= bound < 2e-3

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.machine.rolling_back import without_rolling_back
 
 TRACE_TOLERANCE_M = 1e-3
 """How far a cubic may be from the arcs that it stands for [m]."""
@@ -26,7 +27,8 @@ def trace(
     At every step within, its point is compared with the true one; between two steps, the arc and
     the cubic are each no farther from their chord than l φ/8 and |q''| Δw²/8, and the chords no
     farther from each other than their ends. The sum bounds the distance everywhere; the longest
-    cubics that stay within a millimetre are taken.
+    cubics that stay within a millimetre are taken. A body that is a polygon stands where the true
+    one rolls back, and the bound has that distance in it.
 
     Args:
         positions: [m], shape (n, 2), n >= 1.
@@ -44,6 +46,9 @@ def trace(
         >>> len(curve.spans), bound < 1e-3, round(curve.length, 1)
         (7, True, 6.0)
     """
+    rolled = 0.0
+    if reach > 0.0:  # a cubic that goes back would turn the body round
+        positions, rolled = without_rolling_back(positions, headings)
     steps = np.hypot(*np.diff(positions, axis=0).T)
     turns = np.abs(np.diff(headings))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -65,7 +70,7 @@ def trace(
         taken[(first[:, None] + np.arange(width)).ravel()] = True
         firsts.append(first)
         widths.append(np.full(len(first), width))
-    bound += reach * _swayed(headings, np.diff(along) > STANDING_M)
+    bound += rolled + reach * _swayed(headings, np.diff(along) > STANDING_M)
     return _curve(positions, headings, along, firsts, widths, bound)
 
 
