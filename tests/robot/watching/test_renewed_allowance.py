@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.watching import renewed_allowance
 
 GUESSED = {"differential": {"track_m": 0.5}, "delay_s": 0.05, "lag_s": 0.05}
 
@@ -127,6 +128,17 @@ def test_where_more_cannot_be_kept_the_robot_stops_and_says_so(
 
 
 @pytest.mark.slow
+def test_a_path_that_keeps_more_is_looked_for_while_it_brakes_where_it_takes_longer(
+    slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(renewed_allowance, "LAY_WORK_S", (0.0,))  # nothing is found at once
+    done = loop(Navigator(slalom_of(), warm=False), cart_of(0.15, 0.3), limit=200.0)
+    assert "searches" in {event.data["outcome"] for event in deviations(done)}
+    assert not {"stops"} & {event.data["outcome"] for event in deviations(done)}
+    assert done.nav.reached
+    assert done.gap(discs, 0.3) >= 0.5
+
+
 def test_a_robot_with_a_lidar_keeps_more_too(
     slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle]
 ) -> None:

@@ -11,16 +11,11 @@ from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.perception.belief import News
 from viaspline.robot.perception.perceive import Sighting
-from viaspline.robot.replanning.deadline import is_paused, with_time_to_search
+from viaspline.robot.replanning.deadline import is_paused
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_from_scan import replan_from_scan
-from viaspline.robot.replanning.replan_search import search
-from viaspline.robot.replanning.transitions import (
-    keep_searching,
-    let_go,
-    stop_for_good,
-    take_over,
-)
+from viaspline.robot.replanning.transitions import let_go
+from viaspline.robot.replanning.way_round import way_round
 from viaspline.robot.run import Event
 from viaspline.world.world import World
 
@@ -99,21 +94,9 @@ def _round_obstacles(context: ReplanContext, new: World) -> Decision:
 def _go_round(context: ReplanContext, obstruction: Obstruction, new: World) -> Decision:
     """Round what is in the way, of which some may be new, in the time that there is."""
     blocked = replace(context, obstruction=obstruction)
-    decision = _searched(with_time_to_search(blocked))
+    decision = way_round(blocked)
     return replace(decision, events=_detected(context, new) + decision.events)
 
 
 def _detected(context: ReplanContext, new: World) -> tuple[Event, ...]:
     return tuple(context.detection(new, i) for i in range(len(new)))
-
-
-def _searched(context: ReplanContext) -> Decision:
-    """Go over to a new path, stop for good, or go on looking for one."""
-    result = search(context)
-    if result.candidate is not None:
-        decision = take_over(context, result.candidate, result.skip)
-    elif result.begin_with is None:
-        decision = stop_for_good(context, str(result.refusal))
-    else:
-        decision = keep_searching(context, result)
-    return replace(decision, searched=True, work=context.work)

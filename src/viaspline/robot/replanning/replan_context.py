@@ -254,17 +254,29 @@ class ReplanContext:
                 first, last = np.asarray(path.parameter(np.array([start, end]))).tolist()
                 yield start, first, path.section(first, last), floor
 
+    @property
+    def stands_clear(self) -> bool:
+        """Whether it touches nothing until it stands, and keeps its distance from then on."""
+        touching = self.requirements.radius + self.requirements.tracking_error
+        return self._keeps(self.floor, self.stop) and self._is_clear(self.stop, touching)
+
     def is_clear(self, place: float) -> bool:
         """Whether the path keeps its distance from what is in the way up to a place [m]."""
+        return self._is_clear(place, self.floor)
+
+    def _is_clear(self, place: float, floor: float) -> bool:
         path, world, start = self.schedule.path, self.obstruction.world, self.obstruction.free_until
         if place < start:
             return True
         if place - start <= SAME_PLACE_M:
-            point = np.asarray(path.at_distance(place))
-            return float(world.distance(point)) >= self.floor - SAME_PLACE_M
+            return self._keeps(floor, place)
         first, last = np.asarray(path.parameter(np.array([start, place]))).tolist()
-        part = path.section(first, last)
-        return _first_conflict(part, world, self.floor, self._unbudgeted) is None
+        return _first_conflict(path.section(first, last), world, floor, self._unbudgeted) is None
+
+    def _keeps(self, floor: float, place: float) -> bool:
+        """Whether a place of the path is so far from what is in the way [m]."""
+        point = np.asarray(self.schedule.path.at_distance(place))
+        return float(self.obstruction.world.distance(point)) >= floor - SAME_PLACE_M
 
     def clear_leaves(self) -> list[float]:
         """Where a new path can leave this one while the robot rolls on [m]."""

@@ -42,7 +42,10 @@ class ReplanResult:
 def search(context: ReplanContext) -> ReplanResult:
     """A path on, past points of the route that can't be reached any more, or why there is none."""
     if not context.is_clear(context.stop):
-        return ReplanResult(None, _too_late(context))
+        reason = _too_late(context)
+        if context.speed > 0.0 and context.stands_clear:
+            return ReplanResult(None, reason, begin_with=NO_STAGE)  # it looks on from there
+        return ReplanResult(None, reason)
     skip, reason = _covered(context)
     if reason is not None:
         return ReplanResult(None, reason)

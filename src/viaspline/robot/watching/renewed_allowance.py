@@ -2,7 +2,8 @@
 
 What was kept for the tracking error is a promise of the model. Where the machine breaks it, what is
 measured takes its place: the path ahead is proven anew with that. Where it doesn't hold it is laid
-anew, from the first place on that has room for more; and where that can't be, the robot stops.
+anew, from the first place on that has room for more. Where that can't be at once, the robot looks
+for a way on as round anything that is in its way, and stops if there is none.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from viaspline.robot.navigation.schedule import ReducedClearance, Schedule
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.transitions import stop_for_good, take_over
+from viaspline.robot.replanning.way_round import way_round
 from viaspline.robot.run import Event
 from viaspline.robot.watching.path_deviation import Deviation
 
@@ -35,6 +37,9 @@ SPACING_RATIO = 0.25
 
 FLOOR_SLACK_M = 1e-3
 """By which the path may keep less than its samples show [m]."""
+
+
+LAID_ANEW = "the path ahead is laid anew with that"
 
 
 @dataclass(frozen=True)
@@ -106,7 +111,7 @@ def _set_back(
 
 
 def _laid_anew(context: ReplanContext, deviation: Deviation) -> Decision:
-    """A path that keeps more, from the first place on that has room for it; else a stop."""
+    """A path that keeps more, from the first place on that has room for it; or a search for one."""
     tried: tuple[PathCandidate | None, float] = (None, 0.0)
     for limit in LAY_WORK_S:
         try:
@@ -116,13 +121,33 @@ def _laid_anew(context: ReplanContext, deviation: Deviation) -> Decision:
             tried = (None, limit)
     candidate, work = tried
     if candidate is None:
-        told = _told(context, deviation, "no path ahead that keeps so much was found", "stops")
-        why = f"it gets {deviation.off:.2f} m beside its path, and what is ahead is not clear then"
-        stopped = stop_for_good(context, why)
-        return replace(stopped, events=(told, *stopped.events), searched=True, work=work)
-    told = _told(context, deviation, "the path ahead is laid anew with that", "laid anew")
+        return _looked_for(context, deviation, work)
+    told = _told(context, deviation, LAID_ANEW, "laid anew")
     decision = take_over(context, candidate, {})
     return replace(decision, events=(told, *decision.events), searched=True, work=work)
+
+
+def _looked_for(context: ReplanContext, deviation: Deviation, work: float) -> Decision:
+    """The search for a path that keeps more, braking for it; a stop where there is none.
+
+    Args:
+        context: The robot, with what is too near to the path ahead.
+        deviation: How far it is beside it.
+        work: What was spent already [s of the reference machine].
+    """
+    decision = way_round(context)
+    reason = decision.schedule.giving_up
+    if decision.replan is not None:
+        told = _told(context, deviation, LAID_ANEW, "laid anew")
+    elif reason is None:
+        told = _told(context, deviation, "one that keeps so much is looked for", "searches")
+    else:
+        told = _told(context, deviation, "no path ahead that keeps so much was found", "stops")
+        why = f"it gets {deviation.off:.2f} m beside its path, and what is ahead is not clear then"
+        decision = stop_for_good(context, f"{why}: {reason}")
+    return replace(
+        decision, events=(told, *decision.events), searched=True, work=work + decision.work
+    )
 
 
 def _candidate(context: ReplanContext) -> tuple[PathCandidate | None, float]:
