@@ -42,10 +42,8 @@ class ReplanResult:
 def search(context: ReplanContext) -> ReplanResult:
     """A path on, past points of the route that can't be reached any more, or why there is none."""
     if not context.is_clear(context.stop):
-        reason = _too_late(context)
-        if context.speed > 0.0 and context.stands_clear:
-            return ReplanResult(None, reason, begin_with=NO_STAGE)  # it looks on from there
-        return ReplanResult(None, reason)
+        looks_on = context.speed > 0.0 and context.stands_clear  # from where it stands then
+        return ReplanResult(None, _too_late(context), begin_with=NO_STAGE if looks_on else None)
     skip, reason = _covered(context)
     if reason is not None:
         return ReplanResult(None, reason)
