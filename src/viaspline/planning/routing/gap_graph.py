@@ -5,6 +5,7 @@ Tested through ``planning/routing/test_bottleneck``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,10 +38,10 @@ class GapGraph:
     links: GapLinks
 
     @classmethod
-    def of(cls, world: World, reach: float) -> GapGraph:
-        """That of a world, with the gaps that are narrower than ``reach`` [m]."""
+    def of(cls, world: World, reach: float, least: float = -math.inf) -> GapGraph:
+        """That of a world, with the gaps of ``least`` and more that are below ``reach`` [m]."""
         pieces = ConvexPieces.of(world)
-        links = [links_among(pieces, reach)]
+        links = [links_among(pieces, reach, least)]
         numbered = [(np.arange(len(pieces.owners)), pieces)]
         radii, owners, places = [pieces.radii], [pieces.owners], [pieces.places]
         count = len(pieces.owners)
@@ -48,11 +49,11 @@ class GapGraph:
         for k, cells in enumerate(maps):
             numbers = count + np.arange(len(cells.cells))
             count += len(numbers)
-            links.append(cells.links(reach).renumbered(numbers, numbers))
+            links.append(cells.links(reach).renumbered(numbers, numbers).wider(least))
             for others, other in numbered:
                 near = cells.near(other, reach)
                 between = links_between(other, cells.pieces(near), reach)
-                links.append(between.renumbered(others, numbers[near]))
+                links.append(between.renumbered(others, numbers[near]).wider(least))
             radii.append(np.zeros(len(numbers)))
             owners.append(np.full(len(numbers), cells.owner))
             places.append(cells.middles)

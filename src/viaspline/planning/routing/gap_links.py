@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -40,23 +41,26 @@ class ConvexPieces:
 
         Nothing crosses the edge of an obstacle, so that its inside may be left out.
         """
+        rings = [(one.ring, index) for index, one in enumerate(world.obstacles) if one.ring]
+        # a scan makes hundreds of discs, and shapely makes many points as fast as one
+        centres = np.array([ring.loops[0][0] for ring, _ in rings if ring.is_disc], np.float64)
+        discs = iter(shapely.points(centres.reshape(-1, 2)))
         found: list[tuple[Any, float, int]] = []
-        for index, obstacle in enumerate(world.obstacles):
-            if obstacle.ring is not None:
-                radius = obstacle.ring.radius
-                found += [(core, radius, index) for core in _convex_cores(obstacle.ring)]
+        for ring, index in rings:
+            cores = [next(discs)] if ring.is_disc else _convex_cores(ring)
+            found += [(core, ring.radius, index) for core in cores]
         if world.bounds is not None:
             x0, y0, x1, y1 = world.bounds
             found += [(e, 0.0, BOUNDS) for e in _edges([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])]
         areas = [*((ring,) for ring in world.fences), *([world.corridor] if world.corridor else [])]
         for number, rings in enumerate(areas, start=1):
             found += [(edge, 0.0, BOUNDS - number) for ring in rings for edge in _edges(ring)]
-        cores = np.array([core for core, _, _ in found], object)
+        shapes = np.array([core for core, _, _ in found], object)
         return cls(
-            cores,
+            shapes,
             np.array([radius for _, radius, _ in found], np.float64),
             np.array([owner for _, _, owner in found], np.int64),
-            _first_corners(cores),
+            _first_corners(shapes),
         )
 
 
@@ -87,6 +91,10 @@ class GapLinks:
         """Those of some numbers, in that order, or those that are marked."""
         return GapLinks(self.pairs[which], self.widths[which], self.feet[which])
 
+    def wider(self, least: float) -> GapLinks:
+        """Those whose gaps have at least a width [m]."""
+        return self.some(self.widths >= least)
+
     def renumbered(self, first: Ints, second: Ints) -> GapLinks:
         """These with other numbers for the first piece of each pair, and for the second."""
         pairs = np.column_stack((first[self.pairs[:, 0]], second[self.pairs[:, 1]]))
@@ -99,11 +107,11 @@ def places_near(places: Floats, pieces: ConvexPieces, reach: float) -> Ints:
     return np.unique(tree.query(shapely.points(places))[0])
 
 
-def links_among(pieces: ConvexPieces, reach: float) -> GapLinks:
-    """The gaps of less than ``reach`` [m] between some pieces."""
+def links_among(pieces: ConvexPieces, reach: float, least: float = -math.inf) -> GapLinks:
+    """The gaps of ``least`` and more, and less than ``reach`` [m], between some pieces."""
     boxes = _boxes(pieces, 0.5 * reach)
     pairs = shapely.STRtree(boxes).query(boxes).T
-    return _measured(pieces, pieces, pairs[pairs[:, 0] < pairs[:, 1]], reach)
+    return _measured(pieces, pieces, pairs[pairs[:, 0] < pairs[:, 1]], reach, least)
 
 
 def links_between(first: ConvexPieces, second: ConvexPieces, reach: float) -> GapLinks:
@@ -112,11 +120,13 @@ def links_between(first: ConvexPieces, second: ConvexPieces, reach: float) -> Ga
     return _measured(first, second, shapely.STRtree(boxes[0]).query(boxes[1])[::-1].T, reach)
 
 
-def _measured(first: ConvexPieces, second: ConvexPieces, pairs: Ints, reach: float) -> GapLinks:
+def _measured(
+    first: ConvexPieces, second: ConvexPieces, pairs: Ints, reach: float, least: float = -math.inf
+) -> GapLinks:
     a, b = pairs.T
     cores = first.cores[a], second.cores[b]
     widths = shapely.distance(*cores) - first.radii[a] - second.radii[b]
-    near = widths < reach
+    near = (widths < reach) & (widths >= least)
     lines = shapely.shortest_line(cores[0][near], cores[1][near])
     return GapLinks(pairs[near], widths[near], _coordinates(lines).reshape(-1, 4))
 

@@ -25,6 +25,7 @@ from viaspline.planning.problem.work_budget import (
     POSES_EFFORT_S,
     TREE_S,
 )
+from viaspline.planning.turning.hybrid_astar.closed_gaps import closed_gaps
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
@@ -223,11 +224,24 @@ def pose_problems(
             (effort.care[0] * rho, effort.care[1] * rho),
         )
         yield PoseProblem(
-            search_window,
+            _with_narrow_gaps(search_window, requirements),
             primitives_of(rho, bent, steps, search_window.pace),
             effort.room,
             requirements,
         )
+
+
+def _with_narrow_gaps(window: SearchWindow, requirements: Requirements) -> SearchWindow:
+    """A window with the gaps that its lattice shows open and that are too narrow."""
+    if not window.is_fine:
+        return window
+    inner, side = window.body.inner, window.side
+
+    def told() -> Floats:
+        return closed_gaps(window.world.near(window.area.box), inner, side)
+
+    asked = ("narrow gaps", window.world, window.area, inner, side)
+    return replace(window, narrow_gaps=requirements.once(asked, told))
 
 
 def _one_way(problem: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | NotFound, bool]:

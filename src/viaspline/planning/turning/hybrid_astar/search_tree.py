@@ -246,7 +246,7 @@ def _begun(rows: NDArray[Number], count: int) -> NDArray[Number]:
         rows: (n, ...).
         count: No more than n.
     """
-    copied = np.zeros(rows.shape, rows.dtype)
+    copied = np.empty(rows.shape, rows.dtype)
     copied[:count] = rows[:count]
     return copied
 
@@ -263,16 +263,17 @@ def _empty(
     around = np.ceil(4.0 * math.pi * moves.sizes[0] / steps)
     nodes = room
     table = 1 << math.ceil(math.log2(4 * nodes))
-    return PoseSearch(
+    waiting = Heap(np.empty(nodes), np.empty(nodes, np.int64), np.zeros(1, np.int64))
+    return PoseSearch(  # rows of nodes are written before they are read; the table has to be empty
         window=np.array(search_window.area.box),
         ends_at=np.concatenate((goal[None], np.unique(starts[:, :2], axis=0))),
         care=np.array(search_window.care),
         scales=np.column_stack((CELL_SHARE * steps, around, search_window.rooms(steps))),
-        nodes=np.zeros((nodes, 5)),
-        links=np.zeros((nodes, 5), np.int64),
+        nodes=np.empty((nodes, 5)),
+        links=np.empty((nodes, 5), np.int64),
         keys=np.zeros(table, np.int64),
         cells=np.zeros(table, np.int64),
-        heap=Heap(np.zeros(nodes), np.zeros(nodes, np.int64), np.zeros(1, np.int64)),
+        heap=waiting,
         counts=np.zeros(4, np.int64),
         goal=np.ascontiguousarray(goal, np.float64),
         headings=np.ascontiguousarray(headings, np.float64),

@@ -24,7 +24,6 @@ from viaspline.kernels.turning.collision_cache import (
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import Ahead
 from viaspline.kernels.world.rasterize import mark_segments, rasterized
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.routing.gap_graph import GapGraph
 from viaspline.planning.turning.hybrid_astar.disc_cover import covering_discs
 from viaspline.world.world import World
 
@@ -34,7 +33,6 @@ HEURISTIC_WEIGHT = 1.3  # by how much what is still to come counts more than wha
 FINE_CELL_RADII = 0.25  # side of a cell of a fine lattice, in distances that the body keeps: where
 # a gap that is too narrow looks open, a search sees all before it before it turns round
 MAX_CELLS_ALONG = 400  # of the lattice, along a window's longer side
-MAX_GAP_OBSTACLES = 1000  # in a window, whose gaps are measured
 MAX_TABLE_CELLS_ALONG = 1000  # of the table of distances, along it too
 LOOKED_AT_SPACING = 0.02  # between places that are looked at, in half widths of the body,
 FINEST_SPACING = 2e-4  # and in least radii, for a body that is no more than a point
@@ -159,6 +157,7 @@ class SearchWindow:
         cell: Side of a cell of the lattice that is wanted [m].
         care: How near to the start and the goal longer moves take more room, and how much more [m].
         barriers: Segments that the reference point must not cross [m], (b, 4).
+        narrow_gaps: Segments across gaps that it doesn't get through [m], (n, 4).
     """
 
     world: World
@@ -168,6 +167,7 @@ class SearchWindow:
     cell: float
     care: tuple[float, float]
     barriers: Floats = field(default_factory=lambda: np.empty((0, 4)))
+    narrow_gaps: Floats = field(default_factory=lambda: np.empty((0, 4)))
 
     def closed_by(self, barriers: Floats) -> SearchWindow:
         """This window with barriers instead of those that it has; it shares what is known of it."""
@@ -175,7 +175,7 @@ class SearchWindow:
             return self
         window = replace(self, barriers=np.ascontiguousarray(barriers))
         cache = self.cache._replace(barriers=window.barriers)
-        shared = {"cells": self.cells, "narrow_gaps": self.narrow_gaps, "cache": cache}
+        shared = {"cells": self.cells, "cache": cache}
         vars(window).update(shared)  # what ``cached_property`` would find out anew
         return window
 
@@ -206,17 +206,6 @@ class SearchWindow:
             self.world.packed, x0, y0, self.side, height, width, near, NO_GROWN_MAPS
         )
         return cells
-
-    @cached_property
-    def narrow_gaps(self) -> Floats:
-        """Segments across gaps that the reference point doesn't get through [m], (n, 4).
-
-        None where cells are too coarse for them, among too many things, and on maps.
-        """
-        near = self.world.near(self.area.box) if self.is_fine else World()
-        if not 0 < len(near) <= MAX_GAP_OBSTACLES or near.are_maps.any():
-            return np.empty((0, 4))
-        return np.ascontiguousarray(GapGraph.of(near, 2.0 * self.body.inner).links.feet)
 
     @cached_property
     def walls(self) -> Floats:
