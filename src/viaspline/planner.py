@@ -19,8 +19,10 @@ def plan(mission: Mission) -> Plan:
     drives. What it gets beside the path, with a margin, is kept in addition, and the mission
     planned again, until that covers what is measured. One with a sensor drives a slalom as well,
     for the bends of paths that it will lay under way. ``robot.tracking_error_m`` says it instead.
-    Where steering at its stop leaves nothing to correct with, so that the robot gets too far beside
-    a path as tight as that, the turning circle is widened by a fifth: ``Plan.mission`` has it.
+    Where its steering would be left with too little to correct what noise does, so that the robot
+    drifted off in bends, turns are laid wider, as wide as that noise asks for: ``Plan.mission`` has
+    the circle. Where that has no room, or takes far longer, they stay as they are, and what the
+    robot gets beside them is kept.
 
     Raises:
         NoPathError: When there is no path, with the reason and the least change that would serve.

@@ -12,8 +12,13 @@ from functools import cached_property
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
-from viaspline.machine.allowance import allowance, allowance_on_bends, tracking_remedy
+from viaspline.machine.allowance import (
+    allowance,
+    allowance_on_bends,
+    tracking_remedy,
+)
 from viaspline.machine.drivability import Drivability
+from viaspline.machine.eased_turns import eased_turns
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.measure_drivability import drivability_of
 from viaspline.machine.robot_model import is_driven
@@ -49,8 +54,9 @@ MAX_TRIAL_ROUNDS = 6
 ALLOWANCE_GROWTH = 1.1
 """By which an allowance grows that was measured once already."""
 
-TURN_RESERVE = 1.2
-"""Of a turning circle, where steering at its stop leaves too little to correct with."""
+HARDLY_LONGER, MAX_LONGER = 1.05, 1.25
+"""A drive that leaves so much is taken at once where it takes no more than so many times as long as
+one that keeps nothing for its tracking error; or than one that keeps what it asks for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,13 +157,7 @@ def whole_plan(mission: Mission, world: World) -> Plan:
     first = _with_error(mission, world, error)
     if robot.tracking_error_m is not None or not is_driven(robot):
         return first
-    try:
-        return _as_driven(first)
-    except (PlanningError, GeometryError):
-        if robot.drive is not None and robot.drive.kind.turn_radius is not None:
-            with suppress(PlanningError, GeometryError):
-                return _as_driven(_with_error(_with_reserve(mission), world, error))
-        raise
+    return _with_steering_left(first, error)
 
 
 def in_order(mission: Mission) -> tuple[Mission, World]:
@@ -171,6 +171,34 @@ def in_order(mission: Mission) -> tuple[Mission, World]:
     if served is not mission and mission.route.corridor is not None:
         world = World.known(served)
     return served, world
+
+
+def _with_steering_left(first: Plan, error: float) -> Plan:
+    """The plan as driven whose path leaves steering to correct with, where that doesn't cost much.
+
+    Args:
+        first: A plan as the robot could drive it, that keeps ``error`` [m].
+        error: With which others begin.
+
+    Raises:
+        PlanningError, GeometryError: What the first ends in, where no other plan is found.
+    """
+    roomy = []
+    mission, robot = first.mission, first.mission.robot
+    for radius, kept in eased_turns(first.path, first.trajectory, robot):
+        eased = robot.model_copy(update={"min_turn_radius_m": radius})
+        wider = mission.model_copy(update={"robot": eased})
+        with suppress(PlanningError, GeometryError):
+            roomy.append(_as_driven(_with_error(wider, first.world, max(kept, error))))
+            if _is_as_soon(roomy[-1], first, HARDLY_LONGER):
+                return roomy[-1]
+    try:
+        tight = _as_driven(first)
+    except (PlanningError, GeometryError):
+        if not roomy:
+            raise
+        return min(roomy, key=lambda plan: plan.trajectory.duration)
+    return next((plan for plan in roomy if _is_as_soon(plan, tight, MAX_LONGER)), tight)
 
 
 def _as_driven(first: Plan) -> Plan:
@@ -192,12 +220,9 @@ def _as_driven(first: Plan) -> Plan:
     )
 
 
-def _with_reserve(mission: Mission) -> Mission:
-    """The mission with a wider turning circle, so that there is steering left to correct with."""
-    radius = mission.robot.turn_radius
-    assert radius is not None  # steered robots have one
-    eased = mission.robot.model_copy(update={"min_turn_radius_m": TURN_RESERVE * radius})
-    return mission.model_copy(update={"robot": eased})
+def _is_as_soon(plan: Plan, other: Plan, longer: float) -> bool:
+    """Whether a plan takes at most so many times as long as another."""
+    return plan.trajectory.duration <= longer * other.trajectory.duration
 
 
 def _with_error(mission: Mission, world: World, error: float) -> Plan:

@@ -132,11 +132,11 @@ def watched_plan(mission: Mission, watch: ProgressBar) -> Plan:
         return planner.plan(mission)
 
 
-def say_remarks(asked: Mission) -> None:
+def say_remarks(asked: Mission, plan: Plan) -> None:
     """Say what a plan of a mission leaves out."""
     from viaspline.report.remarks import plan_remarks
 
-    say(*(f"note: {words}" for words in plan_remarks(asked)))
+    say(*(f"note: {words}" for words in plan_remarks(asked, plan)))
 
 
 def say_written(files: list[Path]) -> None:

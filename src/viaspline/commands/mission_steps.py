@@ -62,7 +62,7 @@ def plan_mission(asked: Mission, file: Path, out: Path | None, *, quiet: bool) -
         from viaspline.report.terminal_tables import plan_tables, show
 
         show(plan_tables(planned, file.stem))
-        say_remarks(asked)
+        say_remarks(asked, planned)
         say_written(files)
 
 
@@ -119,7 +119,7 @@ def run_mission(
         from viaspline.report.terminal_tables import plan_tables, run_tables, show
 
         show(plan_tables(plan, file.stem), run_tables(done, file.stem))
-        say_remarks(asked)
+        say_remarks(asked, plan)
         say_written([*files, *(one.path for one in (film, log) if one is not None)])
     if not done.reached:
         from viaspline.report.units import place, seconds

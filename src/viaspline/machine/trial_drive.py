@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,6 +41,9 @@ from viaspline.trajectory.trajectory import Trajectory
 
 MAX_DURATIONS, MAX_OVERTIME_S = 1.5, 60.0
 """A trial drive is broken off after so many planned durations, and so much longer [s]."""
+
+USUAL_OVERTIME_S = 3.0
+"""By so much most drives are longer than planned at most [s]: no more noise is drawn for them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,29 +105,79 @@ def follow(
         >>> track.finished, bool(abs(track.tracking.cross_track[-1]) < 0.01)
         (True, True)
     """
-    if not 0.0 < period < math.inf:
-        raise GeometryError(f"period is {period}; give a time above 0 s")
-    model, reference = drive_model_of(robot, period), reference_path_of(path)
-    profile = speed_profile_of(trajectory.delayed(-trajectory.start_time))
-    state = start_of(model, reference, offset)
-    substeps = max(math.ceil(period / SUBSTEP_S - 1e-9), 1)
-    count = math.ceil((MAX_DURATIONS * trajectory.duration + MAX_OVERTIME_S + model.delay) / period)
+    model, reference = drive_model_of(robot, _sound(period)), reference_path_of(path)
+    start = start_of(model, reference, offset)
     faults = DriveNoise(robot, seed)
-    memory = np.zeros(MEMORY)
-    memory[LATE], memory[LAST_TURN] = model.delay, state[TURN]
-    rows, notes, ticks = drive(
-        model, reference, profile, state.copy(), memory, np.empty((0, COMMAND)), 0.0, math.inf,
-        period, substeps, faults.measured(count), faults.driven(count * substeps),
-    )  # fmt: skip
-    finished = ticks >= 0
-    if finished:
-        rows, notes = rows[: ticks * substeps], notes[:ticks]
-    rows = np.concatenate((first_row(state), rows))
+    rows, notes, finished = _driven(model, reference, trajectory, start, faults, period)
+    rows = np.concatenate((first_row(start), rows))
     travel = travel_of(model, rows)
     return Track(
         rows[:, ROW_TIME], rows[:, [ROW_X, ROW_Y]], rows[:, ROW_HEADING], travel.speeds,
         rows[:, ROW_YAW_RATE], Tracking.of(model, reference, notes, rows), finished,
     )  # fmt: skip
+
+
+def trackings(
+    path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec, seeds: Iterable[int]
+) -> Iterator[tuple[Tracking, bool]]:
+    """What drives as of ``follow`` are off from their path, looked at once in every period.
+
+    Args:
+        path: In the plane.
+        trajectory: Its time law.
+        robot: Its drive and localisation.
+        seeds: Of the noise, one for each drive.
+
+    Yields:
+        The errors, and whether the drive came to the end of the time law.
+
+    Raises:
+        GeometryError: When the path has heights.
+    """
+    model, reference = drive_model_of(robot), reference_path_of(path)
+    start = start_of(model, reference)
+    for seed in seeds:
+        faults = DriveNoise(robot, seed)
+        rows, notes, finished = _driven(model, reference, trajectory, start, faults, PERIOD_S)
+        ends = np.ascontiguousarray(rows[::-1][:: len(rows) // len(notes)][::-1])
+        yield Tracking.of(model, reference, notes, ends), finished
+
+
+def _sound(period: float) -> float:
+    if not 0.0 < period < math.inf:
+        raise GeometryError(f"period is {period}; give a time above 0 s")
+    return period
+
+
+def _driven(
+    model: DriveModel,
+    reference: ReferencePath,
+    trajectory: Trajectory,
+    start: Floats,
+    faults: DriveNoise,
+    period: float,
+) -> tuple[Floats, Floats, bool]:
+    """Every step of a drive and what was noted in every period; whether it came to its end.
+
+    Noise is drawn for as long as drives usually take, and more where one takes longer.
+    """
+    profile = speed_profile_of(trajectory.delayed(-trajectory.start_time))
+    substeps = max(math.ceil(period / SUBSTEP_S - 1e-9), 1)
+    measured, driven = np.empty((0, 3)), np.empty((0, 2))
+    for durations, overtime in ((1.0, USUAL_OVERTIME_S), (MAX_DURATIONS, MAX_OVERTIME_S)):
+        most = durations * trajectory.duration + overtime + model.delay
+        more = math.ceil(most / period) - len(measured)
+        measured = np.concatenate((measured, faults.measured(more)))
+        driven = np.concatenate((driven, faults.driven(more * substeps)))
+        memory = np.zeros(MEMORY)
+        memory[LATE], memory[LAST_TURN] = model.delay, start[TURN]
+        rows, notes, ticks = drive(
+            model, reference, profile, start.copy(), memory, np.empty((0, COMMAND)), 0.0, math.inf,
+            period, substeps, measured, driven,
+        )  # fmt: skip
+        if ticks >= 0:
+            return rows[: ticks * substeps], notes[:ticks], True
+    return rows, notes, False
 
 
 PROFILE_STEP_S = 0.02

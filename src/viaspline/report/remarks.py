@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report.sight_remarks import sight_remarks
+
+if TYPE_CHECKING:
+    from viaspline.whole_plan import Plan
 
 FOLLOWED_EXACTLY: Final = (
     "the robot has no drive: it is taken to follow its path exactly, and nothing is kept for what "
@@ -14,14 +17,39 @@ FOLLOWED_EXACTLY: Final = (
 )
 
 
-def plan_remarks(mission: Mission) -> list[str]:
+def plan_remarks(mission: Mission, plan: Plan | None = None) -> list[str]:
     """What to know of a plan that it doesn't say itself; of the mission as it was asked for.
+
+    Args:
+        mission: What was asked for.
+        plan: What came of it, if that is at hand.
 
     >>> [found] = plan_remarks(Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}}))
     >>> found == FOLLOWED_EXACTLY
     True
     """
-    return [*_order(mission), *([FOLLOWED_EXACTLY] if keeps_nothing(mission.robot) else [])]
+    found = [*_order(mission), *([FOLLOWED_EXACTLY] if keeps_nothing(mission.robot) else [])]
+    return found if plan is None else [*found, *_steering(mission, plan)]
+
+
+def _steering(mission: Mission, plan: Plan) -> list[str]:
+    """How a plan leaves steering to correct with, or that it doesn't."""
+    asked, laid = mission.robot.turn_radius, plan.mission.robot.turn_radius
+    if asked is None or laid is None or mission.robot.tracking_error_m is not None:
+        return []
+    if laid > asked:
+        return [
+            f"turns of {laid:.3g} m or more, in place of {asked:.3g} m, leave steering to correct "
+            f"what noise does; {plan.tracking_error:.2f} m are kept for that"
+        ]
+    from viaspline.machine.steering_reserve import ENOUGH_RESERVE, steering_reserve
+
+    if steering_reserve(mission.robot, plan.path.max_curvature()[0]) >= 0.5 * ENOUGH_RESERVE:
+        return []
+    return [
+        "turns as tight as these leave hardly any steering to correct what noise does: "
+        f"{plan.tracking_error:.2f} m are kept for that; wider ones don't fit or take far longer"
+    ]
 
 
 def keeps_nothing(robot: RobotSpec) -> bool:

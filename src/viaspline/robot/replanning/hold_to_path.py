@@ -30,6 +30,9 @@ MARGIN = 1.25
 """By which what is kept is larger than what a robot gets beside a path in these drives. They are of
 the path itself, and short: the largest error of them is about 3.5 standard deviations."""
 
+DRIVES_AHEAD = 3
+"""Drives that are tried out where they differ, by the first seeds of the trial drives."""
+
 MAX_TRIALS = 5
 """Time laws that are tried out on a path, each slower than the one before where it has to be."""
 
@@ -125,7 +128,7 @@ def _too_far(
     reach = 0.0 if robot.footprint is None else robot.outer_radius
     profile = speed_profile_of(trajectory)
     seconds = max(float(trajectory.time_at(until)) - state.time, 0.0)
-    for seed in TRIAL_SEEDS if is_random(robot) else TRIAL_SEEDS[:1]:
+    for seed in TRIAL_SEEDS[: DRIVES_AHEAD if is_random(robot) else 1]:
         context.requirements.spend(DRIVE_AHEAD_S + DRIVE_AHEAD_SECOND_S * seconds)
         errors = drive_ahead(model, robot, reference, profile, state, until, seed)
         if errors is None:
