@@ -41,12 +41,13 @@ class ConvexPieces:
 
         Nothing crosses the edge of an obstacle, so that its inside may be left out.
         """
-        rings = [(one.ring, index) for index, one in enumerate(world.obstacles) if one.ring]
+        solids = [(one.ring, index) for index, one in enumerate(world.obstacles) if one.ring]
         # a scan makes hundreds of discs, and shapely makes many points as fast as one
-        centres = np.array([ring.loops[0][0] for ring, _ in rings if ring.is_disc], np.float64)
-        discs = iter(shapely.points(centres.reshape(-1, 2)))
+        centres = np.array([ring.loops[0][0] for ring, _ in solids if ring.is_disc], np.float64)
+        points: Shapes = np.asarray(shapely.points(centres.reshape(-1, 2)))
+        discs = iter(points)
         found: list[tuple[Any, float, int]] = []
-        for ring, index in rings:
+        for ring, index in solids:
             cores = [next(discs)] if ring.is_disc else _convex_cores(ring)
             found += [(core, ring.radius, index) for core in cores]
         if world.bounds is not None:
