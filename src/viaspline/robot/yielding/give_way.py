@@ -113,7 +113,8 @@ def _by_another_way(
     ways: list[tuple[Way, _Waiting]] = []
     for one in waiting:
         if one.late > PATIENCE_S:
-            ways += [(way, one) for way in ways_past(one.context, one.free, paths)]
+            before = one.ends - GAIN_S
+            ways += [(way, one) for way in ways_past(one.context, one.free, paths, before)]
 
     def is_worth(candidate: PathCandidate, number: int) -> bool:
         return candidate.trajectory.end_time + GAIN_S < ways[number][1].ends

@@ -21,6 +21,7 @@ from viaspline.planning.problem.work_budget import LAW_AMONG_S, WorkBudget
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.yielding.meeting_ahead import meeting_ahead
+from viaspline.robot.yielding.soonest_end import soonest_end
 from viaspline.robot.yielding.swerves import Swerves, driven
 from viaspline.spacetime.standing_ghost import standing_ghost
 from viaspline.spacetime.timed_problem import without_lanes
@@ -76,20 +77,23 @@ def try_ways(
     return TriedWays(best, at if at < len(ways) else 0)
 
 
-def ways_past(context: ReplanContext, free: Trajectory, paths: Swerves) -> tuple[Way, ...]:
+def ways_past(
+    context: ReplanContext, free: Trajectory, paths: Swerves, before: float
+) -> tuple[Way, ...]:
     """The ways past what a robot would meet first.
 
     Args:
         context: The robot under way.
         free: The law that it would drive on its path if nothing moved.
         paths: By which it may swerve; where there are none it is led round.
+        before: Who swerves and arrives no sooner than this gains nothing [s].
     """
     moving, path = context.knowledge.moving, context.schedule.path
     meeting = meeting_ahead(context.task, moving, path, free, context.progress.time)
     if meeting is None:
         return ()
     if paths:
-        return tuple(partial(_swerved, context, paths, k) for k in range(len(paths.places)))
+        return tuple(partial(_swerved, context, paths, k, before) for k in range(len(paths.places)))
     return tuple(
         partial(_led_round, context, meeting.obstacle, side, window)
         for window in meeting.windows
@@ -98,14 +102,16 @@ def ways_past(context: ReplanContext, free: Trajectory, paths: Swerves) -> tuple
 
 
 def _swerved(
-    context: ReplanContext, paths: Swerves, number: int, budget: WorkBudget
+    context: ReplanContext, paths: Swerves, number: int, before: float, budget: WorkBudget
 ) -> PathCandidate | None:
-    """A path by a place beside the robot's own, with its law."""
+    """A path by a place beside the robot's own, with its law; None if it ends too late."""
     path = paths.path(number)
     if path is None:
         budget.spent += LAID_S
         return None
     budget.spent += LAW_AMONG_S
+    if soonest_end(context, path.path) >= before:
+        return None
     return next(iter(driven(context, (path,), context.knowledge)), None)
 
 
