@@ -25,7 +25,9 @@ from viaspline.fleet.rerouted_fleet import rerouted_fleet, try_cost
 from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_along
 from viaspline.fleet.space.plan_spatial_fleet import plan_spatial_fleet
 from viaspline.fleet.still_world import without_motion
+from viaspline.fleet.swerved_fleet import swerved_fleet
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timing.time_paths import MANY
 from viaspline.fleet.unserved.explain_unserved import explain_unserved
 from viaspline.formats.asked_for import AskedFleet, asked_fleet
 from viaspline.handed_in import check_callable, number_from
@@ -272,7 +274,11 @@ def _improved(
         seconds: What may be spent [s on the reference machine].
         progress: Called with the share that is spent.
     """
-    third, kept = seconds / 3.0, paths.laid.kept
+    kept = paths.laid.kept
+    if kept is not None and not timed.blocked and len(timed.ways.members) >= MANY:
+        timed = swerved_fleet(timed, kept.rests, fleet.separation_m, seconds / 2.0)
+        seconds = seconds / 2.0
+    third = seconds / 3.0
     costs = [try_cost(timed, robot) for robot in range(len(timed.ways.members))]
     if kept is None or timed.blocked or not costs or LEAST_TRIES * max(costs) > third:
         return timed.improved(seconds, progress)

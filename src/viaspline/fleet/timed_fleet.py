@@ -169,8 +169,17 @@ class FleetWays:
             plan: Its path, with the law that it would drive alone.
             separation: Free space between any two bodies [m].
         """
-        laid = (*self.plans[:robot], plan, *self.plans[robot + 1 :])
-        changed = np.array([robot], np.int64)
+        return self.with_paths({robot: plan}, separation)
+
+    def with_paths(self, plans: Mapping[int, AnyPlan], separation: float) -> FleetWays:
+        """The ways of the same robots, some of which take other paths; see ``with_path``.
+
+        Args:
+            plans: By robot.
+            separation: Free space between any two bodies [m].
+        """
+        laid = tuple(plans.get(k, plan) for k, plan in enumerate(self.plans))
+        changed = np.array(sorted(plans), np.int64)
         names = [one.name for one in self.members]
         by_name = dict(zip(names, laid, strict=True))
         courses = renewed_courses(self.courses, by_name, separation, changed)

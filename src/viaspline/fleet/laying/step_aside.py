@@ -72,25 +72,36 @@ def stepped_aside(plan: Plan, discs: Floats) -> SteppedAside:
         plan: One that can: see ``can_step_aside``.
         discs: x, y of each, and the distance that the path has to keep from there [m], (n, 3).
     """
-    robot, world = plan.mission.robot, plan.world
     requirements = Requirements.of(plan.mission, plan.tracking_error)
-    limits = limits_of(robot)
     spans, marks, failed = step_aside(
-        world.packed, plan.path.spans.copy(), _marks(plan.path, plan.mission), discs,
-        requirements.required, _bend(limits),
+        plan.world.packed, plan.path.spans.copy(), marks_of(plan), discs, requirements.required,
+        free_bend(limits_of(plan.mission.robot)),
     )  # fmt: skip
     if failed >= 0:
         return SteppedAside(None, int(failed))
+    return SteppedAside(plan_along(plan, spans, marks))
+
+
+def plan_along(plan: Plan, spans: Floats, marks: Ints) -> Plan | None:
+    """A plan along its path with other bends; None where that can't be proven, or driven.
+
+    Args:
+        plan: One that can step aside: see ``can_step_aside``.
+        spans: Bézier control polygons of the path [m], (m, 4, 2).
+        marks: Of its joints, (m + 1,): see ``kernels.fleet.sidestep.step_aside``.
+    """
+    robot, world = plan.mission.robot, plan.world
     path = Path(spans, list(_vias(plan.path, spans, marks)))
-    certificate = proven(path, world, requirements)
+    certificate = proven(path, world, Requirements.of(plan.mission, plan.tracking_error))
     if not certificate.holds:
-        return SteppedAside(None)
+        return None
+    zones = plan.mission.world.speed_zones
     try:
-        law = retime(path, limits, stations(path, robot), zones=plan.mission.world.speed_zones)
+        law = retime(path, limits_of(robot), stations(path, robot), zones=zones)
     except GeometryError:
-        return SteppedAside(None)
+        return None
     found = replace(plan, path=path, certificate=certificate, trajectory=law)
-    return SteppedAside(found if _follows(found, plan.mission) else None)
+    return found if _follows(found, plan.mission) else None
 
 
 def _follows(plan: Plan, mission: Mission) -> bool:
@@ -101,7 +112,7 @@ def _follows(plan: Plan, mission: Mission) -> bool:
     return allowance(plan.path, plan.trajectory, robot) <= plan.tracking_error
 
 
-def _bend(limits: Limits) -> float:
+def free_bend(limits: Limits) -> float:
     """The curvature at which the robot needn't slow down, if that is gentle [1/m]."""
     across = limits.max_lateral_accel
     by_accel = math.inf if across is None else across / limits.max_speed**2
@@ -109,12 +120,12 @@ def _bend(limits: Limits) -> float:
     return min(by_accel, by_yaw, SHARPEST_PER_M)
 
 
-def _marks(path: Path, mission: Mission) -> Ints:
-    """The joints of a path as the kernel takes them."""
+def marks_of(plan: Plan) -> Ints:
+    """The joints of a plan's path as the kernel takes them."""
+    path, route = plan.path, plan.mission.route
     marks = np.full(len(path.spans) + 1, FREE, np.int64)
     for via in path.vias:
         marks[round(via.u)] = KEPT if via.kind == "user" else ASIDE
-    route = mission.route
     marks[0] = KEPT if route.start.heading_deg is None else FIXED
     marks[-1] = KEPT if route.goal is None or route.goal.heading_deg is None else FIXED
     return marks

@@ -1,0 +1,106 @@
+"""Paths of a large fleet led aside where robots would wait long for each other.
+
+Where two paths cross at a small angle, or robots meet head-on, one of them waits until the other
+has passed all of the stretch that both drive along, whoever is let pass first: only other paths
+help. So all paths are looked at by samples, with what each pair waits in the mean; where a meeting
+costs long, one of the two paths swerves, so that it crosses the other one more steeply, or not at
+all. That takes milliseconds a robot. What is chosen is then laid and proven, and all are timed once
+along it: what is handed back is never later than what it began with.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.fleet.laying.resting_places import RestingPlaces
+from viaspline.fleet.laying.swerving import bend_of, kept_distances, swerved
+from viaspline.fleet.sampled_paths import grid_of_rests, grid_of_samples, samples_of
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.reckoned_waits import BETWEEN_M
+from viaspline.kernels.fleet.swerves_sought import SAVED, Swervers, X, swerves_sought
+from viaspline.kernels.fleet.waits_with import KEPT_MORE_M, waits_of_all
+from viaspline.planner import Plan
+
+WORK_PER_S = 60_000_000
+"""Pairs of samples that are looked at in a second of the reference machine."""
+LEAST_SAVED_S = 0.2
+"""What a path with all its swerves saves at least, beyond what it takes [s]."""
+
+
+def swerved_fleet(
+    timed: TimedFleet, rests: RestingPlaces, separation: float, budget: float
+) -> TimedFleet:
+    """A fleet of which some robots swerve, so that all wait less.
+
+    Args:
+        timed: All of its robots have a law.
+        rests: Where they rest.
+        separation: Free space between any two bodies [m].
+        budget: What may be spent on looking [s of the reference machine].
+
+    Returns:
+        A fleet of the same robots, all of which are served, and are no later in all.
+    """
+    ways = timed.ways
+    found = _sought(ways, rests, int(budget * WORK_PER_S))
+    led = _swerved(ways, rests, found)
+    return min((timed, _timed(ways, led, separation)), key=lambda one: one.rank) if led else timed
+
+
+def _timed(ways: FleetWays, led: dict[int, Plan], separation: float) -> TimedFleet:
+    """The fleet timed along other paths, as few of which as need be are given up.
+
+    Args:
+        ways: As they were.
+        led: The robots with other paths.
+        separation: Free space between any two bodies [m].
+    """
+    while True:
+        anew = TimedFleet.by_priority(ways.with_paths(led, separation))
+        pairs = anew.timing.blocked.items()
+        given_up = {robot for pair in pairs for robot in pair} & led.keys()
+        if not given_up:
+            return anew
+        led = {robot: plan for robot, plan in led.items() if robot not in given_up}
+
+
+def _sought(ways: FleetWays, rests: RestingPlaces, work: int) -> Floats:
+    """Swerves by which less is waited, as ``swerves_sought``."""
+    samples = samples_of(ways.courses, ways.rides)
+    grid = grid_of_samples(samples, BETWEEN_M)
+    kept = [kept_distances(plan) for plan in ways.planar]
+    swervers = Swervers(
+        np.array([bend_of(plan) for plan in ways.planar]),
+        np.cumsum([0, *(len(one) for one in kept)], dtype=np.int64),
+        np.concatenate(kept),
+    )
+    order = np.argsort(-waits_of_all(samples, grid), kind="stable")
+    by_place = grid_of_rests(rests, ways.courses, KEPT_MORE_M)
+    return swerves_sought(samples, grid, by_place, swervers, order, work)
+
+
+def _swerved(ways: FleetWays, rests: RestingPlaces, swerves: Floats) -> dict[int, Plan]:
+    """The plans that swerve, of those robots that save by it what they take longer, and more."""
+    robots = swerves[:, 0].astype(np.int64)
+    plans, changed = ways.planar, dict[int, Plan]()
+    for robot in np.unique(robots).tolist():
+        own, plan = swerves[robots == robot], plans[robot]
+        name, reach = ways.courses.names[robot], float(ways.courses.packed.reach[robot])
+        found = _worth_it(plan, own, name, reach, rests)
+        if found is plan and len(own) > 1:  # some of them may be
+            for k in range(len(own)):
+                found = _worth_it(found, own[k : k + 1], name, reach, rests)
+        if found is not plan:
+            changed[robot] = found
+    return changed
+
+
+def _worth_it(plan: Plan, swerves: Floats, name: str, reach: float, rests: RestingPlaces) -> Plan:
+    """The plan that makes swerves, or else the one that there is."""
+    found = swerved(plan, swerves[:, X:SAVED].copy(), name, reach, rests)
+    if found is None:
+        return plan
+    then, is_made = found
+    longer = then.trajectory.duration - plan.trajectory.duration
+    return then if swerves[is_made, SAVED].sum() - longer > LEAST_SAVED_S else plan
