@@ -19,11 +19,11 @@ from timing import clock
 
 import viaspline as vs
 from viaspline.fleet.courses import courses_of
+from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.late_share import arrivals_of, late_share
 from viaspline.fleet.laying.lay_paths import lay_paths
-from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import time_paths
 from viaspline.mission.fleet.fleet import FleetMember
@@ -49,6 +49,14 @@ def lateness(rides, courses, timing) -> float:
     return late_share(rides, arrivals_of(courses, timing.laws))
 
 
+def late_in(plan: vs.FleetPlan) -> float:
+    """Of all that a plan serves, over what they would take alone along their first paths."""
+    departs = {one.name: one.mission.route.depart_s for one in plan.fleet.members}
+    alone = sum(plan.alone[name] for name in plan.plans)
+    took = sum(one.trajectory.end_time - departs[name] for name, one in plan.plans.items())
+    return took / alone - 1.0
+
+
 def measured(count: int, seed: int, improve: float) -> tuple[list[float], str]:
     """The seconds of each step, and all that is told of them."""
     fleet = fleet_of(count, seed)
@@ -62,16 +70,19 @@ def measured(count: int, seed: int, improve: float) -> tuple[list[float], str]:
     equal = [0.0] * len(members)
     timing_s, timing = clock(lambda: time_paths(courses, found, rides, equal))
     proving, proof = clock(lambda: certify_fleet(courses, timing.laws, SEPARATION_M))
-    late = [lateness(rides, courses, timing)]
+    late, late_took = [lateness(rides, courses, timing)], ""
     if improve > 0.0:
-        better = improve_laws(courses, found, rides, timing, equal, improve)
-        late.append(lateness(rides, courses, better))
+        paths = CrossingPaths(laid, SEPARATION_M, courses, found)
+        seeking, better = clock(lambda: vs.plan_fleet(fleet, improve, paths=paths))
+        late.append(late_in(better))
+        late_took = f" in {seeking:.1f} s"
     took = [laying, cutting, meeting, timing_s, proving]
     return took, (
         f"{count:6d} {count - len(timing.blocked):6d} "
         + " ".join(f"{1e3 * one:9.1f}" for one in took)
         + f" {len(found.packed.robots):9d} {len(found.packed.low):9d} "
         + "  ".join(f"{100 * one:.2f} %" for one in late)
+        + late_took
         + f"  {proof.separation:.4f} m  {held:.0f}, {memory():.0f} MB"
     )
 

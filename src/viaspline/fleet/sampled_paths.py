@@ -10,8 +10,8 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.laying.resting_places import RestingPlaces
 from viaspline.fleet.timing.rides import FleetRides
+from viaspline.kernels.fleet.linked_grid import LinkedGrid, new_linked_grid
 from viaspline.kernels.fleet.packed_samples import PackedSamples
-from viaspline.kernels.fleet.place_grid import PlaceGrid, new_place_grid
 from viaspline.kernels.fleet.waits_with import RestGrid
 
 APART_SHARE = 0.45
@@ -47,7 +47,7 @@ def samples_of(courses: FleetCourses, rides: FleetRides) -> PackedSamples:
     )  # fmt: skip
 
 
-def grid_of_samples(samples: PackedSamples, spare: float) -> PlaceGrid:
+def grid_of_samples(samples: PackedSamples, spare: float) -> LinkedGrid:
     """A grid in whose neighbouring cells all samples are that may be too near to one.
 
     Args:
@@ -55,7 +55,7 @@ def grid_of_samples(samples: PackedSamples, spare: float) -> PlaceGrid:
         spare: By how much farther apart samples are than what is too near, at most [m].
     """
     width = 2.0 * float(samples.reach.max(initial=0.0)) + spare
-    return new_place_grid(samples.place, width)
+    return new_linked_grid(samples.place, width)
 
 
 def grid_of_rests(rests: RestingPlaces, courses: FleetCourses, spare: float) -> RestGrid:
@@ -70,4 +70,4 @@ def grid_of_rests(rests: RestingPlaces, courses: FleetCourses, spare: float) -> 
     owner = np.array([numbers.get(one.robot, NOBODY) for one in rests.places], np.int64)
     reach = float(courses.packed.reach.max(initial=0.0))
     width = reach + float(rests.rows[:, 2].max(initial=0.0)) + spare
-    return RestGrid(rests.rows, owner, new_place_grid(rests.rows[:, :2].copy(), width))
+    return RestGrid(rests.rows, owner, new_linked_grid(rests.rows[:, :2].copy(), width))

@@ -10,10 +10,13 @@ from contextlib import suppress
 from typing import Any, Final
 
 from viaspline.errors import ViasplineError
+from viaspline.fleet.crossing_paths import crossing_paths
 from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
 from viaspline.fleet.execution.fleet_navigator import FleetNavigator
 from viaspline.fleet.execution.simulate_fleet import simulate_fleet
 from viaspline.fleet.plan_fleet import plan_fleet
+from viaspline.fleet.swerved_fleet import swerved_fleet
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.route_spec import Route
 from viaspline.warming.mission_kind import MissionKind
@@ -33,6 +36,20 @@ def drive_fleets(kind: MissionKind) -> None:
             if plan.patrols is None:
                 simulate_fleet(fleet, plan=plan)
             drive_and_change(FleetNavigator(plan, warm=False), fleet)
+    if not kind.parts:
+        _lead_aside()
+
+
+def _lead_aside() -> None:
+    """Lead one of two paths aside that cross at a small angle, as in fleets of many robots."""
+    routes = ({"start": [0, 0], "goal": [90, 0]}, {"start": [90, -5], "goal": [0, 5]})
+    fleet = Fleet.model_validate(
+        {"separation_m": 1, "fleet": [{"name": f"r{k}", "route": r} for k, r in enumerate(routes)]}
+    )
+    paths = crossing_paths(fleet)
+    if paths.laid.kept is not None:
+        timed = TimedFleet.by_priority(FleetWays.of(fleet, paths))
+        swerved_fleet(timed, paths.laid.kept.rests, fleet.separation_m, STEP_S)
 
 
 def fleets_of(kind: MissionKind) -> Iterator[Fleet]:

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.jit import inlined, inner
+from viaspline.kernels.jit import inlined, kernel
 
 FAR = 5.0
 """Beyond so many spreads a normal variable doesn't come."""
@@ -29,7 +29,7 @@ def _mean_above(mean: float, spread: float) -> float:
     return mean * share + spread * math.exp(-0.5 * z * z) / math.sqrt(2.0 * math.pi)
 
 
-@inner
+@kernel
 def expected_wait(late: float, other_late: float, spread: float) -> float:
     """The mean of the lesser wait [s].
 

@@ -15,8 +15,8 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.expected_wait import expected_wait
+from viaspline.kernels.fleet.linked_grid import NEXT, NONE, LinkedGrid, column_of
 from viaspline.kernels.fleet.packed_samples import PackedSamples
-from viaspline.kernels.fleet.place_grid import NEXT, NONE, PlaceGrid, column_of
 from viaspline.kernels.fleet.swerve_shape import SampledDrive
 from viaspline.kernels.growable import new_floats, new_ints
 from viaspline.kernels.jit import inner
@@ -40,7 +40,7 @@ class Meetings(NamedTuple):
         whole: A row for each meeting: see ``ROBOT``, (room, 5).
         real: What the drive comes too early for letting the other pass, and the other one, and the
             wait that is reckoned with [s], (room, 3).
-        count: So many rows are written, (1,).
+        written: So many rows are, (1,).
         open: Of each robot two meetings that may go on, as ``whole``, (2 n, 5),
         times: and as ``real``, (2 n, 3).
         touched: Those of them that are in use, (2 n,).
@@ -48,7 +48,7 @@ class Meetings(NamedTuple):
 
     whole: Ints
     real: Floats
-    count: Ints
+    written: Ints
     open: Ints
     times: Floats
     touched: Ints
@@ -73,12 +73,12 @@ def _close(meetings: Meetings, k: int, spread: float, horizon: float) -> float:
     wait = 0.0
     if min(late, other_late) > -horizon:
         wait = expected_wait(late, other_late, spread)
-        at = meetings.count[0]
+        at = meetings.written[0]
         if at < meetings.whole.shape[0]:
             meetings.whole[at] = meetings.open[k]
             meetings.real[at, LATE], meetings.real[at, OTHER_LATE] = late, other_late
             meetings.real[at, WAIT] = wait
-            meetings.count[0] = at + 1
+            meetings.written[0] = at + 1
     meetings.open[k, LAST] = NEVER
     return wait
 
@@ -97,7 +97,7 @@ def _slot(meetings: Meetings, other: int, i: int, j: int) -> int:
 
 @inner
 def reckoned_waits(
-    samples: PackedSamples, grid: PlaceGrid, robot: int, drive: SampledDrive,
+    samples: PackedSamples, grid: LinkedGrid, robot: int, drive: SampledDrive,
     within: tuple[int, int], whole: tuple[int, int], asked: Ints, spread: float, horizon: float,
     most: float, meetings: Meetings,
 ) -> float:  # fmt: skip
@@ -117,7 +117,7 @@ def reckoned_waits(
         meetings: Written to.
     """
     total, used = 0.0, 0
-    meetings.count[0] = 0
+    meetings.written[0] = 0
     own = samples.reach[robot]
     for i in range(whole[0], whole[1]):
         x, y = drive.place[i, 0], drive.place[i, 1]

@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.fleet.linked_grid import LinkedGrid, put_place, take_place
 from viaspline.kernels.fleet.packed_samples import PackedSamples
-from viaspline.kernels.fleet.place_grid import PlaceGrid, put_place, take_place
 from viaspline.kernels.fleet.reckoned_waits import (
     FIRST,
     LAST,
@@ -89,7 +89,7 @@ def _room(swervers: Swervers, robot: int, at: float) -> tuple[float, float]:
 
 @inner
 def _best_swerve(
-    samples: PackedSamples, grid: PlaceGrid, rests: RestGrid, swervers: Swervers, robot: int,
+    samples: PackedSamples, grid: LinkedGrid, rests: RestGrid, swervers: Swervers, robot: int,
     drives: tuple[SampledDrive, SampledDrive, SampledDrive], known: Meetings, asked: Ints,
     scratch: Meetings, found: Floats,
 ) -> int:  # fmt: skip
@@ -112,11 +112,11 @@ def _best_swerve(
     """
     drive, tried, best = drives
     before = 0.0
-    for g in range(known.count[0]):
+    for g in range(known.written[0]):
         before += known.real[g, WAIT]
     least, work, last = before - LEAST_SAVED_S, 0, drive.distance.size - 1
     apart, has_found = 2.0 * samples.reach[robot], False
-    for g in range(known.count[0]):
+    for g in range(known.written[0]):
         wait, meeting = known.real[g, WAIT], known.whole[g]
         if wait < LEAST_WAIT_S:
             continue
@@ -158,7 +158,7 @@ def _best_swerve(
 
 @kernel
 def swerves_sought(
-    samples: PackedSamples, grid: PlaceGrid, rests: RestGrid, swervers: Swervers, order: Ints,
+    samples: PackedSamples, grid: LinkedGrid, rests: RestGrid, swervers: Swervers, order: Ints,
     work: int,
 ) -> Floats:  # fmt: skip
     """Swerves of a fleet by which less is waited, by what is reckoned from samples.

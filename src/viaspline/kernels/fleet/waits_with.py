@@ -12,8 +12,8 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.expected_wait import expected_wait
+from viaspline.kernels.fleet.linked_grid import NEXT, NONE, LinkedGrid, column_of
 from viaspline.kernels.fleet.packed_samples import PackedSamples
-from viaspline.kernels.fleet.place_grid import NEXT, NONE, PlaceGrid, column_of
 from viaspline.kernels.fleet.reckoned_waits import (
     BETWEEN_M,
     FIRST,
@@ -52,7 +52,7 @@ class RestGrid(NamedTuple):
 
     rows: Floats
     owner: Ints
-    grid: PlaceGrid
+    grid: LinkedGrid
 
 
 @inner
@@ -113,7 +113,7 @@ def wait_of_pair(
 
 @inner
 def waits_with(
-    samples: PackedSamples, grid: PlaceGrid, robot: int, drive: SampledDrive, known: Meetings,
+    samples: PackedSamples, grid: LinkedGrid, robot: int, drive: SampledDrive, known: Meetings,
     moved: tuple[int, int, float], asked: Ints, most: float, scratch: Meetings,
 ) -> float:  # fmt: skip
     """What a drive costs that differs from one whose meetings are known [s].
@@ -131,7 +131,7 @@ def waits_with(
     """
     begin, end, longer = moved
     total, low, high = 0.0, begin, end
-    for g in range(known.count[0]):
+    for g in range(known.written[0]):
         one, times = known.whole[g], known.real[g]
         if one[LAST] < begin:
             total += times[WAIT]
@@ -146,14 +146,14 @@ def waits_with(
             samples, grid, robot, drive, (begin, end), (low, high), asked, SPREAD_S, HORIZON_S,
             most - total, scratch,
         )  # fmt: skip
-    for g in range(known.count[0]):
+    for g in range(known.written[0]):
         span = asked[known.whole[g, ROBOT]]
         span[0], span[1] = drive.distance.size, -1
     return total
 
 
 @kernel
-def waits_of_all(samples: PackedSamples, grid: PlaceGrid) -> Floats:
+def waits_of_all(samples: PackedSamples, grid: LinkedGrid) -> Floats:
     """What the drive of each robot costs where it meets others [s], (n,)."""
     robots = samples.reach.size
     asked, waits = np.zeros((robots, 2), np.int64), np.zeros(robots)

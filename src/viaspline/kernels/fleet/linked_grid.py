@@ -19,7 +19,7 @@ MOST_CELLS = 1 << 24
 """A grid has no more cells; they are wider than asked for where it would."""
 
 
-class PlaceGrid(NamedTuple):
+class LinkedGrid(NamedTuple):
     """Which places are in which cell. What lies beyond the grid counts to its outermost cells.
 
     Attributes:
@@ -36,14 +36,14 @@ class PlaceGrid(NamedTuple):
 
 
 @inlined
-def column_of(grid: PlaceGrid, axis: int, at: float) -> int:
+def column_of(grid: LinkedGrid, axis: int, at: float) -> int:
     """The column of cells, or the row, in which a coordinate lies [m]."""
     k = int(np.floor((at - grid.frame[axis]) / grid.frame[2]))
     return min(max(k, 0), grid.counts[axis] - 1)
 
 
 @uncounted
-def put_place(grid: PlaceGrid, k: int, x: float, y: float) -> None:
+def put_place(grid: LinkedGrid, k: int, x: float, y: float) -> None:
     """Put place k, which is in no cell, where it is [m]."""
     cell = column_of(grid, 0, x) * grid.counts[1] + column_of(grid, 1, y)
     after = grid.head[cell]
@@ -54,7 +54,7 @@ def put_place(grid: PlaceGrid, k: int, x: float, y: float) -> None:
 
 
 @uncounted
-def take_place(grid: PlaceGrid, k: int) -> None:
+def take_place(grid: LinkedGrid, k: int) -> None:
     """Take place k out of its cell."""
     before, after = grid.links[k, BEFORE], grid.links[k, NEXT]
     if before == NONE:
@@ -75,7 +75,7 @@ def _widest(places: Floats, axis: int) -> tuple[float, float]:
 
 
 @kernel
-def new_place_grid(places: Floats, width: float) -> PlaceGrid:
+def new_linked_grid(places: Floats, width: float) -> LinkedGrid:
     """A grid that holds places.
 
     Args:
@@ -95,7 +95,7 @@ def new_place_grid(places: Floats, width: float) -> PlaceGrid:
         counts[0] = int((high_x - low_x) / frame[2]) + 1
         counts[1] = int((high_y - low_y) / frame[2]) + 1
     head = np.full(counts[0] * counts[1], NONE)
-    grid = PlaceGrid(frame, counts, head, new_ints(places.shape[0], 3))
+    grid = LinkedGrid(frame, counts, head, new_ints(places.shape[0], 3))
     for k in range(places.shape[0]):
         put_place(grid, k, places[k, 0], places[k, 1])
     return grid
