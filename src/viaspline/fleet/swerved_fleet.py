@@ -22,7 +22,7 @@ from viaspline.kernels.fleet.swerves_sought import SAVED, Swervers, X, swerves_s
 from viaspline.kernels.fleet.waits_with import KEPT_MORE_M, waits_of_all
 from viaspline.planner import Plan
 
-WORK_PER_S = 60_000_000
+WORK_PER_S = 75_000_000
 """Pairs of samples that are looked at in a second of the reference machine."""
 LEAST_SAVED_S = 0.2
 """What a path with all its swerves saves at least, beyond what it takes [s]."""
