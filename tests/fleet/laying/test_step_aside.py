@@ -81,3 +81,19 @@ def test_a_robot_that_cannot_follow_any_bend_does_not_step_aside() -> None:
     assert can_step_aside(plan(mission((0, 0), (80, 0))))
     car = ROBOT | {"min_turn_radius_m": 4.0}
     assert not can_step_aside(plan(mission((0, 0), (80, 0), robot=car)))
+
+
+@given(st.floats(8, 72), st.floats(-1.2, 1.2))
+def test_a_path_that_bends_is_led_aside_without_kinks(along: float, beside: float) -> None:
+    bent = plan(mission((0, 0), (25, 15), (50, 15), (80, 0)))
+    s = along / 80 * bent.path.length
+    x, y = np.asarray(bent.path.at_distance(s)).tolist()
+    heading = float(bent.path.heading(bent.path.parameter(s)))
+    disc = (x - beside * np.sin(heading), y + beside * np.cos(heading), 2.0)
+    found = stepped_aside(bent, np.array([disc])).plan
+    if found is None:
+        return
+    assert found.drivability.sharpest_radius > 1.0
+    joints = np.arange(1.0, len(found.path.spans))
+    before, behind = found.path.curvature(joints - 1e-7), found.path.curvature(joints + 1e-7)
+    assert np.abs(before - behind).max() < 0.7

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.marked_joints import ASIDE, FIXED, KEPT, split_span, walk_path
-from viaspline.kernels.fleet.shape_aside import half_aside, share_aside, shifted_piece
+from viaspline.kernels.fleet.shape_aside import half_aside, joint_bend, share_aside, shifted_piece
 from viaspline.kernels.fleet.span_geometry import span_length
 from viaspline.kernels.jit import inner
 
@@ -68,8 +68,10 @@ def moved_aside(
     had = count
     first, count = cut_half(spans, marks, count, apex, False, before, swing_before)
     apex, last = apex + count - had, last + count - had
+    farthest = bend0 = joint_bend(spans, count, apex)
     x = 0.0
     for i in range(apex, last):
+        bend1 = joint_bend(spans, count, i + 1)
         out0, slope0 = share_aside(x, after, swing_after)
         x += span_length(spans[i], 0.0, 1.0)
         out1, slope1 = share_aside(x, after, swing_after)
@@ -77,10 +79,14 @@ def moved_aside(
             out1, slope1 = 0.0, 0.0
         out0 = 0.0 if marks[i] == KEPT else out0
         out1 = 0.0 if marks[i + 1] == KEPT else out1
-        if not shifted_piece(spans[i], wide * out0, wide * slope0, wide * out1, wide * slope1):
+        if not shifted_piece(
+            spans[i], wide * out0, wide * slope0, bend0, wide * out1, wide * slope1, bend1
+        ):
             return count, 0, 0
-    x = 0.0
+        bend0 = bend1
+    bend1, x = farthest, 0.0
     for i in range(apex - 1, first - 1, -1):
+        bend0 = joint_bend(spans, count, i)
         out1, slope1 = share_aside(x, before, swing_before)
         x += span_length(spans[i], 0.0, 1.0)
         out0, slope0 = share_aside(x, before, swing_before)
@@ -88,7 +94,10 @@ def moved_aside(
             out0, slope0 = 0.0, 0.0
         out0 = 0.0 if marks[i] == KEPT else out0
         out1 = 0.0 if marks[i + 1] == KEPT else out1
-        if not shifted_piece(spans[i], wide * out0, -wide * slope0, wide * out1, -wide * slope1):
+        if not shifted_piece(
+            spans[i], wide * out0, -wide * slope0, bend0, wide * out1, -wide * slope1, bend1
+        ):
             return count, 0, 0
+        bend1 = bend0
     marks[apex] = ASIDE
     return count, first, last

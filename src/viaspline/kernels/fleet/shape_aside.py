@@ -17,6 +17,8 @@ from viaspline.kernels.jit import inlined, inner
 
 TOUCH_M = 1e-4
 """By which a step aside is too wide, so that the next look finds it wide enough."""
+LEAST_SIDE_M = 1e-12
+"""Shorter sides of a span's polygon have no direction."""
 LEAST_KEPT = 0.2
 """A path bends no more sharply than that its inner side is shortened to this."""
 SHORTEST = 0.6
@@ -53,35 +55,61 @@ def share_aside(x: float, half: float, beyond: float) -> tuple[float, float]:
 
 
 @inner
-def shifted_piece(piece: Floats, out0: float, slope0: float, out1: float, slope1: float) -> bool:
+def _bend(x0: float, y0: float, x1: float, y1: float, first: bool) -> float:
+    """Curvature at an end of a cubic between two sides of its polygon, at the first or the last."""
+    side = math.hypot(x0, y0) if first else math.hypot(x1, y1)
+    return 2.0 / 3.0 * (x0 * y1 - y0 * x1) / side**3 if side >= LEAST_SIDE_M else 0.0
+
+
+@inner
+def joint_bend(spans: Floats, count: int, joint: int) -> float:
+    """Curvature at a joint of a path [1/m]: the mean of both sides, which may jump there."""
+    bend, sides = 0.0, 0
+    if joint > 0:
+        p = spans[joint - 1]
+        bend += _bend(
+            p[2, 0] - p[1, 0], p[2, 1] - p[1, 1], p[3, 0] - p[2, 0], p[3, 1] - p[2, 1], False
+        )
+        sides += 1
+    if joint < count:
+        p = spans[joint]
+        bend += _bend(
+            p[1, 0] - p[0, 0], p[1, 1] - p[0, 1], p[2, 0] - p[1, 0], p[2, 1] - p[1, 1], True
+        )
+        sides += 1
+    return bend / max(sides, 1)
+
+
+@inner
+def shifted_piece(
+    piece: Floats, out0: float, slope0: float, bend0: float, out1: float, slope1: float,
+    bend1: float,
+) -> bool:  # fmt: skip
     """Move a piece of a path to the left: its ends by offsets [m], its tangents by slopes.
+
+    Where a path with the tangent T, the normal N and the curvature k is led aside by o, it goes on
+    along (1 - k o) T + o' N. The curvatures are those of ``joint_bend``: either side of a joint is
+    led on in the same direction then.
 
     Returns:
         Whether it goes on in its direction: it doesn't where the path bends too sharply that way.
     """
     d01x, d01y = piece[1, 0] - piece[0, 0], piece[1, 1] - piece[0, 1]
-    d12x, d12y = piece[2, 0] - piece[1, 0], piece[2, 1] - piece[1, 1]
     d23x, d23y = piece[3, 0] - piece[2, 0], piece[3, 1] - piece[2, 1]
     first, last = math.hypot(d01x, d01y), math.hypot(d23x, d23y)
-    if first < 1e-12 or last < 1e-12:
+    if first < LEAST_SIDE_M or last < LEAST_SIDE_M:
         return False
-    bend0 = 2.0 / 3.0 * (d01x * d12y - d01y * d12x) / first**3
-    bend1 = 2.0 / 3.0 * (d12x * d23y - d12y * d23x) / last**3
     keep0, keep1 = 1.0 - bend0 * out0, 1.0 - bend1 * out1
     if keep0 < LEAST_KEPT or keep1 < LEAST_KEPT:
         return False
-    nx0, ny0 = -d01y / first, d01x / first
-    nx1, ny1 = -d23y / last, d23x / last
-    # Directions are those of the path and of the offset alone: with its bend, which may jump at a
-    # joint, they would differ on either side of that.
-    piece[0, 0] += out0 * nx0
-    piece[0, 1] += out0 * ny0
-    piece[3, 0] += out1 * nx1
-    piece[3, 1] += out1 * ny1
-    piece[1, 0] = piece[0, 0] + keep0 * (d01x + slope0 * first * nx0)
-    piece[1, 1] = piece[0, 1] + keep0 * (d01y + slope0 * first * ny0)
-    piece[2, 0] = piece[3, 0] - keep1 * (d23x + slope1 * last * nx1)
-    piece[2, 1] = piece[3, 1] - keep1 * (d23y + slope1 * last * ny1)
+    piece[0, 0] -= out0 * d01y / first
+    piece[0, 1] += out0 * d01x / first
+    piece[3, 0] -= out1 * d23y / last
+    piece[3, 1] += out1 * d23x / last
+    piece[1, 0] = piece[0, 0] + keep0 * d01x - slope0 * d01y
+    piece[1, 1] = piece[0, 1] + keep0 * d01y + slope0 * d01x
+    piece[2, 0] = piece[3, 0] - keep1 * d23x + slope1 * d23y
+    piece[2, 1] = piece[3, 1] - keep1 * d23y - slope1 * d23x
     return True
 
 
