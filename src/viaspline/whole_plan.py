@@ -12,11 +12,7 @@ from functools import cached_property
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
-from viaspline.machine.allowance import (
-    allowance,
-    allowance_on_bends,
-    tracking_remedy,
-)
+from viaspline.machine.allowance import allowance, allowance_on_bends, tracking_remedy
 from viaspline.machine.drivability import Drivability
 from viaspline.machine.eased_turns import eased_turns
 from viaspline.machine.machine_limits import limits_of

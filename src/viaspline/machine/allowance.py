@@ -64,13 +64,24 @@ def allowance(
         >>> allowance(line, trajectory, RobotSpec(drive={"differential": {"track_m": 0.5}})) < 0.05
         True
     """
+    return kept_for(largest_deviation(path, trajectory, robot, what), path, robot)
+
+
+def kept_for(largest: float, path: PiecewiseCubic, robot: RobotSpec) -> float:
+    """What to keep beyond the clearance where trial drives get so far beside a path [m].
+
+    Args:
+        largest: See ``largest_deviation`` [m].
+        path: In the plane.
+        robot: Its body, drive and localisation.
+    """
     even, uneven = (
         (ERROR_MARGIN, UNEVEN_ERROR_MARGIN)
         if is_random(robot)
         else (STEADY_ERROR_MARGIN, UNEVEN_STEADY_ERROR_MARGIN)
     )
     margin = even if _is_even(path, robot) else uneven
-    return margin * largest_deviation(path, trajectory, robot, what) + UNMEASURED_M
+    return margin * largest + UNMEASURED_M
 
 
 def largest_deviation(

@@ -6,10 +6,11 @@ Tested through ``test_reserve``.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.machine.allowance import allowance, largest_deviation
+from viaspline.machine.allowance import kept_for, largest_deviation
 from viaspline.machine.steering_reserve import (
     ENOUGH_RESERVE,
     roomy_turn_radius,
@@ -45,24 +46,16 @@ def eased_turns(
     if steering_reserve(robot, sharpest) >= ENOUGH_RESERVE:
         return
     spare = with_steering_to_spare(robot)
-    try:
-        if _drift(path, trajectory, robot, spare) <= DRIFT:
+    kept = 0.0
+    with suppress(GeometryError):  # it doesn't come to its end: nothing is known of what to keep
+        own = largest_deviation(path, trajectory, robot)
+        spared = largest_deviation(path, trajectory, spare)
+        if own / max(spared, 1e-9) <= DRIFT:
             return
-        kept = allowance(path, trajectory, spare)
-    except GeometryError:  # it doesn't come to its end: nothing is known of what to keep
-        kept = 0.0
+        kept = kept_for(spared, path, spare)
     before = None
     for reserve in RESERVES:
         radius = roomy_turn_radius(robot, reserve)
         if steering_reserve(robot, sharpest) < reserve and radius != before:
             yield radius, kept
             before = radius
-
-
-def _drift(
-    path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec, spare: RobotSpec
-) -> float:
-    """How many times as far a robot gets beside its path as one with steering to spare."""
-    return largest_deviation(path, trajectory, robot) / max(
-        largest_deviation(path, trajectory, spare), 1e-9
-    )

@@ -49,17 +49,18 @@ class GapGraph:
         for k, cells in enumerate(maps):
             numbers = count + np.arange(len(cells.cells))
             count += len(numbers)
-            links.append(cells.links(reach).renumbered(numbers, numbers).wider(least))
+            links.append(cells.links(reach).renumbered(numbers, numbers))
             for others, other in numbered:
                 near = cells.near(other, reach)
                 between = links_between(other, cells.pieces(near), reach)
-                links.append(between.renumbered(others, numbers[near]).wider(least))
+                links.append(between.renumbered(others, numbers[near]))
             radii.append(np.zeros(len(numbers)))
             owners.append(np.full(len(numbers), cells.owner))
             places.append(cells.middles)
             if k + 1 < len(maps):  # for the maps that follow
                 numbered.append((numbers, cells.pieces(np.arange(len(numbers)))))
         found = GapLinks.joined(links)
+        found = found.some(found.widths >= least)
         return cls(
             np.concatenate(radii),
             np.concatenate(owners),

@@ -92,10 +92,6 @@ class GapLinks:
         """Those of some numbers, in that order, or those that are marked."""
         return GapLinks(self.pairs[which], self.widths[which], self.feet[which])
 
-    def wider(self, least: float) -> GapLinks:
-        """Those whose gaps have at least a width [m]."""
-        return self.some(self.widths >= least)
-
     def renumbered(self, first: Ints, second: Ints) -> GapLinks:
         """These with other numbers for the first piece of each pair, and for the second."""
         pairs = np.column_stack((first[self.pairs[:, 0]], second[self.pairs[:, 1]]))
