@@ -40,8 +40,9 @@ STRETCH_GROWTH = 1.25
 HAIR_RATIO = 0.01
 """No end of a slow part is nearer to a node than this, of the distance between nodes."""
 
-MAX_EXCESS = 0.01
-"""By what part of it a limit other than the jerk is widened at most where a robot is under way."""
+MAX_EXCESS = 0.1
+"""By what part of it a limit other than the jerk is widened at most where a robot is under way: as
+much as the bound of a first stretch may be wider than what is driven on it."""
 
 
 def smooth_law(

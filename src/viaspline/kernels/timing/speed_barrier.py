@@ -18,7 +18,7 @@ from viaspline.kernels.jit import inlined, inner, kernel
 LEAST_DROP = 1e-8  # of the barrier in a step that is worth it, as a part of 1 + its value
 LEAST_PART = 1e-8  # of a step
 KEPT_DROP = 0.1  # part of what a step promises that it has to keep
-REGULAR = 1e-14  # part of the largest entry of a matrix that is added to its diagonal
+REGULAR = 1e-14  # part of every entry of a matrix's diagonal that is added to it
 
 
 class BarrierTerms(NamedTuple):
@@ -216,12 +216,9 @@ def barrier_least(terms: BarrierTerms, m: Floats, sharpness: float, rounds: int)
     value = _value(terms, m, sharpness)
     for _ in range(rounds):
         _derivatives(terms, m, sharpness, gradient, bands)
-        most = 0.0
         for i in range(n):
-            most = max(most, bands[i])
             right[terms.order[i]] = gradient[i]
-        for i in range(n):
-            bands[i] += REGULAR * most
+            bands[i] += REGULAR * bands[i]  # beside a cusp they are 1e20 times those elsewhere
         if not _solved(bands, terms.bands, n, right):
             break
         drop = 0.0
