@@ -9,6 +9,7 @@ from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.machine.reference import reference_path_of
+from viaspline.machine.turns_on_spot import corners
 
 
 def test_points_lie_on_the_path_and_close_together() -> None:
@@ -27,6 +28,18 @@ def test_headings_run_on_over_whole_turns() -> None:
     headings = reference_path_of(spiral).heading
     assert np.abs(np.diff(headings)).max() < 0.2
     assert headings[-1] - headings[0] > 3.5 * np.pi
+
+
+@pytest.mark.parametrize("beyond", [0.002, 0.1, 1.0, 5.0])
+def test_a_cusp_inside_of_a_span_has_two_points_with_opposite_headings(beyond: float) -> None:
+    there_and_back = CardinalSpline([(0, 0), (10, 0), (beyond, 0)])
+    reference = reference_path_of(there_and_back)
+    at, angle = corners(there_and_back)
+    assert angle.tolist() == [np.pi]
+    after = int(np.searchsorted(reference.distance, float(at[0]) + 1e-10))
+    assert reference.distance[after - 2] == reference.distance[after - 1] == pytest.approx(at[0])
+    assert np.cos(reference.heading[: after - 1]) == pytest.approx(1.0)
+    assert np.cos(reference.heading[after - 1 :]) == pytest.approx(-1.0)
 
 
 def test_a_path_in_space_is_refused() -> None:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.curve.cusps import SAME_CUSP, cusps
 from viaspline.kernels.tracking.reference_path import ReferencePath
 
 MAX_SPACING_M, MAX_TURN_RAD = 0.25, 0.03
@@ -17,7 +18,10 @@ MIN_POINTS, MAX_POINTS = 2, 400
 """On a span."""
 
 BEFORE_END = 1e-9
-"""A heading at the end of a span is looked up so far before it, in the span's parameter."""
+"""A heading at the end of a span is looked up so far before it, in the span's parameter,"""
+
+BESIDE_CUSP = SAME_CUSP
+"""and those at a cusp inside of a span so far before and after it."""
 
 CUSP_CURVATURE_PER_M = 100.0
 """Curvatures beyond this are those of a cusp [1/m]."""
@@ -27,7 +31,7 @@ def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
     """The points of a path in the plane.
 
     Between them a place is interpolated by the cubic through both with their headings: within a
-    tenth of a millimetre of the path.
+    tenth of a millimetre of the path. Where the heading jumps, at corners and cusps, there are two.
 
     Raises:
         GeometryError: When the path is not in the plane.
@@ -46,8 +50,9 @@ def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
     k = np.repeat(np.arange(len(counts)), counts)
     first = np.repeat(np.cumsum(counts) - counts, counts)
     w = (np.arange(len(k)) - first) / (np.repeat(counts, counts) - 1.0)
-    u = k + w
-    inside = np.where(w >= 1.0, k + (1.0 - BEFORE_END), u)
+    u: Floats = np.asarray(k + w, dtype=np.float64)
+    inside: Floats = np.where(w >= 1.0, k + (1.0 - BEFORE_END), u)
+    u, inside = _with_cusps(path, u, inside)
     places = path.evaluate(u)
     heading = np.asarray(path.heading(inside))
     curvature = np.nan_to_num(np.asarray(path.curvature(inside)), posinf=0.0, neginf=0.0)
@@ -59,6 +64,16 @@ def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
         heading[0] + np.concatenate(([0.0], np.cumsum(turns))),
         np.clip(curvature, -CUSP_CURVATURE_PER_M, CUSP_CURVATURE_PER_M),
     )
+
+
+def _with_cusps(path: PiecewiseCubic, u: Floats, inside: Floats) -> tuple[Floats, Floats]:
+    """Parameters of places and of their headings, with two places at every cusp in a span."""
+    back = cusps(np.ascontiguousarray(path.spans))
+    if not back.size:
+        return u, inside
+    at = np.searchsorted(u, np.repeat(back, 2))
+    beside = np.column_stack((back - BESIDE_CUSP, back + BESIDE_CUSP)).ravel()
+    return np.insert(u, at, np.repeat(back, 2)), np.insert(inside, at, beside)
 
 
 def _counts(spans: Floats) -> NDArray[np.int64]:

@@ -19,6 +19,9 @@ from viaspline.trajectory.limits import Station
 CORNER_RAD = 0.02
 """Spans whose headings differ by more meet in a corner; less is steered away [rad]."""
 
+TURN = "turn"
+"""What the stay of a robot that turns on the spot is called."""
+
 SETTLING_TIMES = 3.0
 """Time constants until a heading, or a direction of travel, is right."""
 
@@ -87,6 +90,24 @@ def _direction(spans: Floats) -> Floats:
     return angles
 
 
+def heading_onward(path: PiecewiseCubic, distance: float) -> float:
+    """The way on from where a robot stands [rad]: behind a corner or a cusp that is there.
+
+    Args:
+        path: What is driven.
+        distance: Where it stands along it [m].
+
+    Example:
+        >>> from viaspline.curve.cardinal import CardinalSpline
+        >>> back = CardinalSpline([(0, 0), (10, 0), (4, 0)])
+        >>> cusp = float(corners(back)[0][0])
+        >>> heading_onward(back, cusp - 0.1), round(abs(heading_onward(back, cusp)), 6)
+        (0.0, 3.141593)
+    """
+    behind = min(distance + 2.0 * SAME_DISTANCE_M, float(path.length))
+    return float(path.heading(float(path.parameter(behind))))
+
+
 def turns_where_it_stands(model: DriveModel) -> bool:
     """Whether a drive turns on the spot to look along its path."""
     return model.actuators.wheelbase <= 0.0 and math.isnan(model.actuators.held_heading)
@@ -150,5 +171,5 @@ def with_turns(
             stop.dwell for stop in stops if math.isclose(stop.distance, at, abs_tol=SAME_DISTANCE_M)
         )
         if needed > stays:
-            stops.append(Station(float(at), needed - stays, "turn"))
+            stops.append(Station(float(at), needed - stays, TURN))
     return sorted(stops, key=lambda stop: stop.distance)

@@ -11,6 +11,7 @@ from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind, number_from, numbers_from, time_from
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.robot_model import PERIOD_S, drive_model_of, is_driven
+from viaspline.machine.turns_on_spot import heading_onward
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import Plan
@@ -207,7 +208,10 @@ class Navigator:
         distance, speed, _ = self._state.schedule.trajectory.state_at(number_from("time", time))
         u = self.path.parameter(float(distance))
         place = np.asarray(self.path.evaluate(u))
-        return RobotState(tuple(place.tolist()), float(self.path.heading(u)), float(speed))
+        heading = float(self.path.heading(u))
+        if speed == 0.0:
+            heading = heading_onward(self.path, float(distance))
+        return RobotState(tuple(place.tolist()), heading, float(speed))
 
     @property
     def controller(self) -> Controller | None:

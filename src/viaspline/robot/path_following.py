@@ -15,6 +15,7 @@ from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.control_law import turn_law
 from viaspline.kernels.tracking.drive_model import yaw_rate_of
+from viaspline.machine.turns_on_spot import heading_onward
 from viaspline.mission.drives.drive import Drive
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.controller import Controller
@@ -26,6 +27,12 @@ from viaspline.robot.state import Command, RobotState
 MIN_CONVERGENCE_M, CONVERGENCE_TIME_S = 1.0, 1.0
 """A robot beside its path comes back to it over at least this distance [m], and over what it drives
 in this time [s]."""
+
+SPOT_GAIN = 4.0
+"""A robot that stands and looks another way than it should turns so fast for its error [1/s],"""
+
+SPOT_DEADBAND_RAD = 0.004
+"""unless that is no larger [rad]."""
 
 
 class _Motion(NamedTuple):
@@ -58,6 +65,8 @@ def command_for(
     if path.dimension > 2:
         curvature = _ground_curvature(path, u)
     stopped = speed == 0.0 and acceleration == 0.0
+    if stopped:
+        heading = heading_onward(path, distance)
     if controller is not None:
         motion = _driven(controller, robot.drive)
         speed = math.hypot(*motion.velocity)
@@ -66,7 +75,9 @@ def command_for(
     else:
         if beside:
             curvature = _led_back(curvature, measured, position, heading)
-        motion = _Motion((speed, 0.0), speed * curvature, {})
+        motion = _Motion((speed, 0.0), _yaw_rate(robot, speed * curvature), {})
+        if stopped:
+            motion = _Motion((0.0, 0.0), _turning_to(heading, measured, robot), {})
     return Command(
         speed=speed,
         acceleration=acceleration,
@@ -88,6 +99,23 @@ def _driven(controller: Controller, drive: Drive | None) -> _Motion:
     rate = float(yaw_rate_of(controller.model, along, turn))
     actuators = {} if drive is None else drive.kind.actuator_values(along, turn)
     return _Motion((along, across), rate, actuators)
+
+
+def _turning_to(heading: float, state: RobotState, robot: RobotSpec) -> float:
+    """Yaw rate of a robot without a drive that stands [rad/s]; 0 if it isn't said how fast it may.
+
+    One without a limit of its yaw rate turns in no time, so its turns are no part of its time law.
+    """
+    error = math.remainder(heading - state.heading, math.tau)
+    if robot.max_yaw_rate_degps is None or abs(error) <= SPOT_DEADBAND_RAD:
+        return 0.0
+    return _yaw_rate(robot, SPOT_GAIN * error)
+
+
+def _yaw_rate(robot: RobotSpec, wanted: float) -> float:
+    """A yaw rate that the robot may have [rad/s]."""
+    most = math.radians(robot.max_yaw_rate_degps or math.inf)
+    return min(max(wanted, -most), most)
 
 
 def _led_back(curvature: float, state: RobotState, position: Floats, heading: float) -> float:

@@ -21,7 +21,7 @@ from viaspline.robot.state import RobotState
 
 Make = Callable[..., Mission]
 Shape = Callable[..., dict[str, Any]]
-STEP, JERK = 0.05, 1.5
+STEP, JERK, FAR = 0.05, 1.5, 3.0
 
 
 def drive(mission: Mission, until: float = 90.0) -> list[Navigator]:
@@ -146,3 +146,58 @@ def test_a_drive_that_is_timed_in_parts_stops_at_its_goal(goal: tuple[float, flo
     run = simulate(Mission.model_validate({"robot": robot, "route": route}))
     assert run.reached, run.reason
     assert math.dist(run.positions[-1], goal) < 0.05
+
+
+def there_and_back(
+    mission_of: Make, beyond: float, dwell: float, sensor: dict[str, Any], **robot: Any
+) -> Mission:
+    """To a place and back, by the paper's spline, which turns by a cusp a little behind it."""
+    far = {"at": [FAR, 0], "dwell_s": dwell} if dwell else [FAR, 0]
+    limits = {"max_speed_mps": 1.0, "max_yaw_rate_degps": 20.0, "sensor": sensor, **robot}
+    mission = mission_of((0, 0), far, (beyond, 0), **limits)
+    spline = mission.spline.model_copy(update={"tangents": "cardinal"})
+    return mission.model_copy(update={"spline": spline})
+
+
+LIDAR, RANGE, JERKY = {"lidar": {"range_m": 6}}, {"range_m": 6}, {"max_jerk_mps3": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("sensor", "beyond", "dwell", "robot"),
+    [
+        (LIDAR, 0.0, 0.0, {}),
+        (LIDAR, 0.002, 15.0, {}),
+        (LIDAR, 0.1, 2.0, {}),
+        (LIDAR, 0.002, 0.0, JERKY),
+        (RANGE, 0.002, 0.0, JERKY),
+        (RANGE, 0.1, 2.0, {}),
+    ],
+)
+def test_a_robot_without_a_drive_stands_as_long_as_it_takes_to_turn_back(
+    mission_of: Make, sensor: dict[str, Any], beyond: float, dwell: float, robot: dict[str, Any]
+) -> None:
+    navs = drive(there_and_back(mission_of, beyond, dwell, sensor, **robot))
+    assert navs[-1].finished
+    turn = 180.0 / 20.0
+    times, speeds, _, _ = driven(navs)
+    stood = STEP / 10 * np.count_nonzero(speeds[(times > 1.0) & (times < times[-1] - 1.0)] == 0.0)
+    apart = beyond >= 0.1  # the station is one rest, the cusp behind it another
+    expected = turn + dwell if apart else max(turn, dwell)
+    assert expected - 2 * STEP <= stood <= expected + 2 * STEP
+    assert times[-1] - expected < 2.0 * FAR + 7.0
+
+
+def test_a_robot_without_a_drive_is_told_to_turn_while_it_stands(mission_of: Make) -> None:
+    nav = Navigator(there_and_back(mission_of, 0.1, 0.0, {"range_m": 6}))
+    heading, time, turned = 0.0, 0.0, []
+    while not nav.finished and time < 60.0:
+        there = nav.reference(time)
+        command, nav = nav.step(RobotState(there.position, heading, there.speed), (), time)
+        assert abs(command.yaw_rate) <= math.radians(20.0) + 1e-9
+        if command.stopped and time > 1.0:
+            turned.append(heading)
+        heading, time = heading + STEP * command.yaw_rate, time + STEP
+    assert nav.finished
+    leaves = turned[round(180.0 / 20.0 / STEP) - 2]
+    assert abs(math.remainder(leaves - math.pi, math.tau)) < 0.15
+    assert abs(math.remainder(heading - math.pi, math.tau)) < 0.05

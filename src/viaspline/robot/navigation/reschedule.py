@@ -15,7 +15,13 @@ from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.kernels.tracking.control_law import HEADING_DEADBAND_RAD
 from viaspline.kernels.tracking.drive_motion import HEADING
-from viaspline.machine.turns_on_spot import SpotTurning, turns_where_it_stands, with_turns
+from viaspline.machine.turns_on_spot import (
+    TURN,
+    SpotTurning,
+    heading_onward,
+    turns_where_it_stands,
+    with_turns,
+)
 from viaspline.robot.navigation.certain_way import certain_until, sighted_until
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
@@ -28,7 +34,7 @@ from viaspline.robot.navigation.law_horizon import (
 from viaspline.robot.navigation.law_past import law_past, part_until, spans_until
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
-from viaspline.trajectory.limits import Station
+from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.part import retime_part
 from viaspline.trajectory.retime import braking, retime
 from viaspline.trajectory.trajectory import Trajectory
@@ -186,6 +192,8 @@ def trajectory_within_sight(
     turn = _turn_before_leaving(task, progress, path, distance)
     if turn is not None and speed < STANDING_MPS and distance < end:
         stops, speed = [turn, *stops], 0.0
+    if task.model is None and (left := _turn_left(schedule.trajectory, stops, distance, time)):
+        stops, speed = [*stops, left], 0.0
     part, motion = (distance, end), (speed, accel)
     if len(knowledge.moving):
         trajectory = law_past(task, knowledge.moving, schedule, path, stops, part, motion, time)
@@ -205,12 +213,31 @@ def _turn_before_leaving(
         return None
     if not turns_where_it_stands(model):
         return None
-    ahead = min(distance + 2.0 * SAME_PLACE_M, path.length)  # beyond a corner at which it stands
-    way = float(path.heading(float(path.parameter(ahead))))
+    way = heading_onward(path, distance)
     angle = math.remainder(way - float(controller.believed[HEADING]), math.tau)
     if abs(angle) <= _leaving_angle(task):
         return None
-    return Station(distance, SpotTurning.of_model(model).time(angle), "turn")
+    return Station(distance, SpotTurning.of_model(model).time(angle), TURN)
+
+
+def _turn_left(
+    law: Trajectory, stops: Sequence[Station], distance: float, time: float
+) -> Station | None:
+    """What is left of the stay in which a robot without a drive turns, if it is there.
+
+    Args:
+        law: By which it comes there, or has stood there since.
+        stops: Of the new law.
+        distance: Where the robot is [m].
+        time: When the new law begins [s].
+    """
+    here = [stop for stop in law.stations if abs(stop.distance - distance) <= SAME_PLACE_M]
+    if not any(stop.name == TURN for stop in here):
+        return None
+    stood = max(time - float(law.time_at(here[0].distance)), 0.0)
+    stays = sum(stop.dwell for stop in stops if abs(stop.distance - distance) <= SAME_PLACE_M)
+    left = sum(stop.dwell for stop in here) - stood - stays
+    return Station(distance, left, TURN) if left > 0.0 else None
 
 
 def _leaving_angle(task: DriveTask) -> float:
@@ -250,7 +277,7 @@ def _timed(
         if end - distance < (LEAST_PART_M if end < path.length else SAME_PLACE_M):
             if speed > 0.0:
                 raise GeometryError(f"the robot can't stop within {end - distance:g} m")
-            return braking(distance, 0.0, task.limits.brake, time)
+            return _standing(distance, stops, task.limits, time)
         return retime_part(
             path, distance, end, task.limits, stops, zones=zones, slow=schedule.slow,
             start_speed=speed, start_accel=accel, start_time=time, replaces=schedule.trajectory,
@@ -266,3 +293,11 @@ def _timed(
         replaces=schedule.trajectory,
     )  # fmt: skip
     return trajectory if ends_here else trajectory.until(end)
+
+
+def _standing(distance: float, stops: Sequence[Station], limits: Limits, time: float) -> Trajectory:
+    """The trajectory of a robot that stays where it is, at least as long as its stops there."""
+    return Trajectory.through(
+        np.full(2, distance), np.zeros(2), max_accel=limits.brake, start_time=time,
+        stations=[stop for stop in stops if stop.distance <= distance],
+    )  # fmt: skip
