@@ -45,9 +45,14 @@ def without_rolling_back(positions: Floats, headings: Floats) -> tuple[Floats, f
 
 
 def _past(positions: Floats, ahead: Floats, first: int) -> int:
-    """The first row that lies ahead of one; as many as there are, if none does."""
+    """The first row that lies ahead of one; as many as there are, if none does.
+
+    Ahead by the headings with which the body leaves that place and comes to the row: standing
+    there, it may have turned on the spot.
+    """
     ways = positions[first + 1 :] - positions[first]
     least = FORWARDS * np.linalg.norm(ways, axis=1)
-    is_ahead = (ways @ ahead[first] >= least) & ((ways * ahead[first + 1 :]).sum(axis=1) >= least)
+    leaves, comes = ahead[first:-1], ahead[first + 1 :]
+    is_ahead = ((ways * leaves).sum(axis=1) >= least) & ((ways * comes).sum(axis=1) >= least)
     is_ahead &= least > 0.0
     return first + 1 + int(np.argmax(is_ahead)) if is_ahead.any() else len(positions)
