@@ -104,6 +104,13 @@ def test_what_came_near_and_touched_nothing_is_told_with_what_was_left() -> None
     assert touching.passes == ()
 
 
+def test_nothing_passed_nearer_than_is_proven_of_all() -> None:
+    one, other = cart((0.0, 1.0), (10.0, -8.0)), cart((0.0, -2.0), (10.0, 14.0))
+    met = encounters(straight(2.0, 10.0), ROBOT, 0.5, one.and_those(other), never)
+    assert len(met.passes) == 2
+    assert min(passed.clearance for passed in met.passes) >= met.clearance
+
+
 def onto(x: float, **sensor: Any) -> vs.Mission:
     """A robot on its way to the east, and a thing that jumps on to its way after 8 s."""
     motion = {"keyframes": [[0, x, 20], [8, x, 20.5], [8.001, x, 0], [60, x, 0.1]], "after": "stay"}

@@ -104,8 +104,9 @@ def encounters(
         return Encounters(math.inf, None, None, ())
     apart = 0.5 * step * (float(speeds.max()) + moving.top_speed)
     contacts = _contacts(times, gaps, nearest, speeds, moving, was_late)
-    name, passes = moving.name(int(nearest[k])), _passes(motion, robot, radius, moving)
-    return Encounters(float(gaps[k]) - apart, float(times[k]), name, contacts, passes)
+    name, proven = moving.name(int(nearest[k])), float(gaps[k]) - apart
+    passes = _passes(motion, robot, radius, moving, proven)
+    return Encounters(proven, float(times[k]), name, contacts, passes)
 
 
 def touched_by(met: Encounters | None) -> str | None:
@@ -139,9 +140,12 @@ def _contacts(
 
 
 def _passes(
-    motion: DrivenStates, robot: RobotSpec, radius: float, moving: Movers
+    motion: DrivenStates, robot: RobotSpec, radius: float, moving: Movers, proven: float
 ) -> tuple[Pass, ...]:
-    """What came near to the robot, each by where it was nearest."""
+    """What came near to the robot, each by where it was nearest; none nearer than is proven of all.
+
+    Of each it is looked less often how near it was, which proves less.
+    """
     count = max(math.ceil((motion.end - motion.begin) / PASSING_RESOLUTION_S), 1)
     times = np.linspace(motion.begin, motion.end, count + 1)
     places, speeds = motion.state_at(times)
@@ -152,7 +156,7 @@ def _passes(
         alone = moving.alone(i)
         gaps = alone.distance(places, times) - radius
         k = int(gaps.argmin())
-        least = float(gaps[k]) - half * (float(speeds.max()) + alone.top_speed)
+        least = max(proven, float(gaps[k]) - half * (float(speeds.max()) + alone.top_speed))
         if least > 0.0 and gaps[k] <= near:
             speed = _speed_told(float(speeds[k]))
             found.append(Pass(float(times[k]), moving.name(i), least, speed))
