@@ -64,6 +64,35 @@ def test_the_same_search_spends_the_same_every_time() -> None:
         assert len({spent_by(limit) for _ in range(2)}) == 1
 
 
+class Growth:
+    """A part of a search that is stopped and goes on."""
+
+    def __init__(self, size: int = 0) -> None:
+        self.size = size
+
+    def copy(self) -> Growth:
+        return Growth(self.size)
+
+
+def test_what_was_taken_up_for_a_part_goes_on_until_that_is_over_and_then_is_let_go() -> None:
+    def grown(budget: WorkBudget) -> int:
+        growth = budget.taken_up("growth", Growth)
+        while growth.size < 5:
+            budget.spend_on_part(1.0)
+            growth.size += 1
+        return growth.size
+
+    first = WorkBudget(3.0)
+    with pytest.raises(SpentBudgetError):
+        first.once("outer", lambda: first.once("part", lambda: grown(first)))
+    assert first.finished["growth"].size == 3
+    then = WorkBudget(3.0, finished=dict(first.finished))
+    assert then.once("outer", lambda: then.once("part", lambda: grown(then))) == 5
+    assert then.spent == 2.0
+    assert then.finished == {"part": 5, "outer": 5}
+    assert first.finished["growth"].size == 3
+
+
 def test_what_was_found_before_the_budget_was_spent_is_kept() -> None:
     class Long:
         def lay(self, problem: WorkBudget, bound: float = 0.0) -> Outcome[str]:

@@ -111,16 +111,25 @@ class WorkBudget:
     spent: float = 0.0
     finished: dict[Hashable, Any] = field(default_factory=dict)
     has_gained: bool = False
+    _under_way: list[Hashable] = field(default_factory=list, init=False, repr=False)
+    """What was taken up for parts that aren't over yet, the first one first."""
 
     def once(self, asked: Hashable, part: Callable[[], Value]) -> Value:
         """What a part of the search comes to, or came to when it was asked before.
+
+        What it took up is of no use once it is over, and is let go: a tree of poses has ten
+        megabytes, and a search of a robot that stands may grow hundreds.
 
         Args:
             asked: All that the part depends on.
             part: Does it.
         """
         if asked not in self.finished:
+            before = len(self._under_way)
             self.finished[asked] = part()
+            for over in self._under_way[before:]:
+                self.finished.pop(over, None)
+            del self._under_way[before:]
             self.has_gained = True
         found: Value = self.finished[asked]
         return found
@@ -131,11 +140,12 @@ class WorkBudget:
         It changes as it goes on, so that what the step before has of it is left as it was.
 
         Args:
-            asked: All that the part depends on.
+            asked: All that the part depends on; the part it is taken up for is the only one to ask.
             begin: Begins it, if the step before has not.
         """
         part = self.finished[asked].copy() if asked in self.finished else begin()
         self.finished[asked] = part
+        self._under_way.append(asked)
         taken: Progress = part
         return taken
 
