@@ -84,3 +84,23 @@ def test_unequal_widths_lie_on_their_own_side(right: float, left: float) -> None
         (20 + 0.7 * right, -0.7 * right, True), (20 + right, -right, False),
     ):  # fmt: skip
         assert area.contains(shapely.Point(x, y)) == inside
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(0, 20), st.floats(0, 20)).map(lambda at: tuple(np.round(at, 2))),
+        min_size=3, max_size=6, unique=True,
+    ),
+    st.floats(0.5, 4.0),
+    st.floats(0.5, 4.0),
+    st.booleans(),
+)  # fmt: skip
+def test_no_crack_leads_to_a_place_of_the_line(
+    places: list[tuple[float, float]], right: float, left: float, closed: bool
+) -> None:
+    points = np.array(places)
+    area = around(points, right, left, closed=closed)
+    edges = [area.exterior, *area.interiors]
+    assert min(edge.distance(shapely.Point(at)) for edge in edges for at in points) > 0.4
+    ring = np.vstack((points, points[:1])) if closed else points
+    assert area.contains(shapely.LineString(ring))

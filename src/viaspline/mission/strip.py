@@ -225,8 +225,10 @@ def around(points: object, right: float, left: float, *, closed: bool) -> shapel
     sides = [
         first - right * across,
         last - right * across,
+        last,  # a corner, so that what is round it has whole edges in common
         last + left * across,
         first + left * across,
+        first,
     ]
     parts = [*np.asarray(shapely.polygons(np.stack(sides, axis=1)))]
     for k in range(0 if closed else 1, len(steps)):
