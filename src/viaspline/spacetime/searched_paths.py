@@ -109,7 +109,7 @@ def _drives(problem: TimedProblem, effort: ThrustEffort) -> list[Floats] | None:
     )  # fmt: skip
     begin, drives = problem.mission.route.depart_s, []
     for k, (first, last) in enumerate(pairwise(vias)):
-        stay = last.dwell if k < len(vias) - 2 else problem.mission.route.hold_s
+        stay = last.dwell + (problem.mission.route.hold_s if k == len(vias) - 2 else 0.0)
         found = search_thrusts(
             around,
             _lattice(problem, effort, begin),

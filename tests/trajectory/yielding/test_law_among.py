@@ -209,6 +209,21 @@ def test_a_station_is_left_alone_while_something_passes_over_it() -> None:
     assert law.duration < 27.0
 
 
+@pytest.mark.parametrize("hold", [0.0, 3.0])
+def test_a_stay_at_the_end_is_part_of_a_law_that_waits(hold: float) -> None:
+    stops = [Station(15.0, dwell=1.0), Station(30.0, dwell=4.0)]
+    # it crosses the way as the robot comes, and the end while the robot would still stand there
+    moving = MovingObstacles([cart(8.0, -5.0, 1.0), cart(30.0, -23.0, 1.0)])
+    outcome = law_among(line(), LIMITS, stops, moving=moving, required=0.5, hold=hold)
+    assert isinstance(outcome, Found)
+    law = outcome.value
+    for stop in stops:
+        assert np.ptp(law.times[law.distances == stop.distance]) == pytest.approx(stop.dwell)
+    assert law.end_time == outcome.cost
+    assert nearest_sampled(law, line(), moving, hold) >= 0.5
+    assert_kept(law, LIMITS, retime(line(), LIMITS, stops))
+
+
 def test_zones_and_slow_bends_are_kept_while_waiting() -> None:
     zone = SpeedZone(polygon=[(8, -9), (12, -9), (12, 9), (8, 9)], max_speed_mps=0.5)
     limits = Limits(max_speed=2, max_accel=1, max_lateral_accel=0.4, max_brake=0.7)

@@ -91,8 +91,10 @@ class Course:
         return float(self.static.time_at(distance))
 
     def law(self, knots: LawKnots) -> Trajectory:
-        """The time law through some knots."""
-        times, places, speeds = knots.merged().fields
+        """The time law through some knots to the end, where the robot stays as long as asked."""
+        stays = self.dwell(self.stage.end)
+        whole = knots.then(knots.times[-1] + stays) if stays > 0.0 else knots
+        times, places, speeds = whole.merged().fields
         return Trajectory(
             places, speeds, times, np.diff(speeds) / np.diff(times), self.stops,
             self.static.over_limit_until,

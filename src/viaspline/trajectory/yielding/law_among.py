@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
@@ -67,7 +68,8 @@ def law_among(
         start: Distance along the path at which the law begins [m].
         start_speed: Speed there [m/s].
         start_time: When it begins [s].
-        hold: For so long the end of the path stays free after arrival [s].
+        hold: For so long the end of the path stays free after the law, which ends with the stay
+            that is asked for there [s].
         speed_cap: As for ``retime``.
         budget: What may be spent.
         halvings: How often the step of the lattice is halved where nothing was found.
@@ -118,7 +120,8 @@ def law_among(
         return waiting_at_rests(road, traffic, static)
     course = Course.of(path, limits, stations, zones, slow, speed_cap, static)
     spending = WorkBudget(BUDGET_S) if budget is None else budget
-    legs = LegsSearch.of(course, road, traffic)
+    staying = replace(traffic, hold=hold + course.dwell(course.stage.end))
+    legs = LegsSearch.of(course, road, staying)
     knots, _ = legs.law(spending, halvings)
     if knots is not None:
         law = course.law(with_fastest_end(legs.search, knots.merged()))

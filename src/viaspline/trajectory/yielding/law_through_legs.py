@@ -40,7 +40,7 @@ class LegsSearch:
         course: What is driven.
         search: What all legs have in common.
         rests: Where legs end [m].
-        traffic: What moves.
+        traffic: What moves; it leaves the end free for the stay there as well.
     """
 
     course: Course
@@ -98,7 +98,7 @@ class LegsSearch:
             knots, closed = self._chained(onset, step, latest, 1, budget)
             if len(self.rests) > 1 and (knots is not None or not closed):
                 if knots is not None:
-                    late = float(knots.times[-1]) - self.course.static.end_time
+                    late = float(knots.times[-1]) - self.course.reaches(self.rests[-1])
                     latest = tuple(self.course.reaches(s) + late for s in self.rests)
                 better, closed = self._chained(onset, step, latest, MOST, budget)
                 if better is not None and (

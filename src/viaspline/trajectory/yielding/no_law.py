@@ -146,8 +146,9 @@ class Unserved:
 
     def _remedy(self) -> str:
         """The least change that would allow a law; empty if none is known."""
-        if self._traffic.hold > 0.0:
-            freed = self._longest_stay()
+        stays = self._course.dwell(self._course.stage.end)
+        if self._traffic.hold > stays:
+            freed = self._longest_stay() - stays
             if freed > 0.0:
                 return f"hold {math.floor(10.0 * freed) / 10.0:g} s at most"
         if self._course.static.speeds[0] > 0.0:
