@@ -275,3 +275,17 @@ def test_a_turn_back_at_the_end_of_a_thin_wall_goes_round_both_of_its_corners(
     assert found.certificate.holds
     assert found.path.max_curvature()[0] * radius <= 1.0 + 1e-9
     assert found.path.length < 85.0 + 3.0 * radius  # 2 · √(17/2)² + 40², and the turn
+
+
+def test_a_robot_under_way_that_can_not_turn_away_is_told_to_be_driven_on() -> None:
+    drive = {"ackermann": {"wheelbase_m": 1, "max_steer_deg": 32}, "delay_s": 0.1, "lag_s": 0.1}
+    boxed = mission(
+        [2.3, 1.5], [-9.5, -0.4], radius=None, robot={"clearance_m": 0.1, "drive": drive,
+        "sensor": {"range_m": 2.4}}, world={"unseen": [disc(0, 2.2, 0.9), disc(0, 0, 1.2)]},
+    )  # fmt: skip
+    run = vs.simulate(boxed)
+    assert not run.reached
+    assert run.reason is not None
+    assert "no way on from where the robot is" in run.reason
+    assert "plan anew from there" in run.reason
+    assert "'the robot'" not in run.reason

@@ -45,7 +45,9 @@ def unlaid(problem: DrivenProblem, outcome: Refusal | GaveUp) -> PlanningError:
     sided = [] if is_hurried else _sides_in_the_way(problem)
     if sided:
         return _no_path_on_sides(problem, outcome, via, sided)
-    if problem.requirements.turn_radius is None:
+    if via.index is None:
+        what, remedy = _no_way_on(problem, outcome)
+    elif problem.requirements.turn_radius is None:
         verb = "can't be" if isinstance(outcome, Refusal) else "wasn't"
         what = f"the body {verb} led to via point {via.name!r}: {outcome.reason}"
         parts = () if is_hurried else CLEARANCE_PARTS
@@ -61,6 +63,18 @@ def unlaid(problem: DrivenProblem, outcome: Refusal | GaveUp) -> PlanningError:
     helps = [remedy, *([outcome.would_help] if outcome.would_help else [])]
     return GaveUpError(
         what, where=via.at, remedy=", or ".join(helps), tried=outcome.tried, via=via.name
+    )
+
+
+def _no_way_on(problem: DrivenProblem, outcome: Refusal | GaveUp) -> tuple[str, str]:
+    """What is said of a robot under way that can't leave where it is, and what helps it on."""
+    circle = problem.requirements.turn_radius
+    room = "for its body" if circle is None else "to turn"
+    who = "" if circle is None else f"with a turning circle of {circle:.4g} m "
+    verb = "is no" if isinstance(outcome, Refusal) else "was found no"
+    return (
+        f"{who}there {verb} way on from where the robot is: {outcome.reason}",
+        f"drive it to where there is room {room}, and plan anew from there",
     )
 
 
