@@ -10,6 +10,8 @@ import numpy as np
 import shapely
 from strange_oracle import STANDS_MPS, Asked, Faults, bezier, filled, route_places, table
 
+HAIR_MPS = 2e-3
+
 
 def run_faults(asked: Asked, run: dict[str, Any], run_csv: str) -> Faults:
     """What a written drive doesn't keep, or says otherwise than it is."""
@@ -119,7 +121,8 @@ def driven_limit_faults(asked: Asked, run: dict[str, Any], rows: np.ndarray) -> 
     accel = robot["max_accel_mps2"]
     brake = robot.get("max_brake_mps2", accel)
     steps = np.diff(t) > 1e-3
-    slope = np.diff(v)[steps] / np.diff(t)[steps]
+    gain = np.diff(v)[steps]  # a robot that is slower than a hair stands already
+    slope = np.sign(gain) * np.maximum(np.abs(gain) - HAIR_MPS, 0.0) / np.diff(t)[steps]
     bend = np.abs(rows["curvature_1pm"])
     bend[(v < STANDS_MPS) | ~np.isfinite(bend)] = 0.0
     limits = [("driven speed", v, robot["max_speed_mps"])]

@@ -113,6 +113,13 @@ class Body:
             return cls(0.0, np.array(robot["footprint"], float))
         return cls(float(robot.get("radius_m", 0.5)), None)
 
+    @property
+    def inner_radius(self) -> float:
+        """Of the disc about the reference point that the body contains [m]."""
+        if self.corners is None:
+            return self.radius
+        return float(shapely.Point(0, 0).distance(shapely.LinearRing(self.corners)))
+
     def laid(self, places: np.ndarray, headings: np.ndarray) -> np.ndarray:
         """Its core at places, as shapes of shapely."""
         if self.corners is None:

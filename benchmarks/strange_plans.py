@@ -106,7 +106,7 @@ def bend_faults(asked: Asked, plan: dict[str, Any], sampled: tuple) -> Faults:
     """Curvature beyond what is told, or what the robot can drive."""
     _, _, bend, _ = sampled
     sharpest = float(np.nanmax(np.abs(bend)))
-    told = plan["path"]["max_curvature_1pm"]
+    told = plan["path"]["max_curvature_1pm"] or math.inf
     if sharpest > told * (1 + 1e-6) + 1e-6 and sharpest < 1e4:
         yield "curvature", f"{sharpest:.6g} 1/m sampled, {told:.6g} told"
     robot = asked.robot
@@ -118,7 +118,7 @@ def bend_faults(asked: Asked, plan: dict[str, Any], sampled: tuple) -> Faults:
         yield "circle", f"radius {1 / sharpest:.6g} m driven, {least:.6g} m asked"
     drives = plan["drivability"]
     radius = drives["sharpest_radius_m"] or math.inf
-    if drives["verdict"] == "good" and radius < drives["least_radius_m"] * (1 - 1e-6):
+    if drives["verdict"] == "good" and radius < (drives["least_radius_m"] or 0.0) * (1 - 1e-6):
         yield "drivability", "good, but its sharpest bend is sharper than the least radius"
     if (drives["verdict"] == "good") != (not drives["reasons"]):
         yield "drivability", f"{drives['verdict']} because of {drives['reasons']}"
@@ -231,9 +231,7 @@ def side_faults(asked: Asked, plan: dict[str, Any], sampled: tuple) -> Faults:
     through = [via for via in plan["path"]["vias"] if via["kind"] == "user"]
     if "corridor" in asked.data["route"]:
         return
-    body = max((math.hypot(*at) for at in asked.robot.get("footprint", ())), default=0.0)
-    body = body or asked.robot.get("radius_m", 0.5)
-    near = 2 * (body + asked.robot["clearance_m"])
+    near = 2 * (asked.body.inner_radius + asked.robot["clearance_m"])
     for one in asked.standing("known"):
         side = one.get("pass_on")
         if one.get("never_pass_on"):
