@@ -42,6 +42,7 @@ def test_the_path_keeps_its_distance_its_ends_and_its_direction(rests: np.ndarra
     turned = out[:, 0] * into[:, 1] - out[:, 1] * into[:, 0]
     assert np.abs(turned).max() < 1e-6
     assert found.certificate.holds
+    assert (path.spans[1:, 0] == path.spans[:-1, 3]).all()
 
 
 def test_a_robot_needs_not_slow_down_for_one_disc_in_the_open() -> None:
@@ -58,6 +59,21 @@ def test_it_steps_to_the_side_on_which_no_other_disc_is() -> None:
     found = stepped_aside(straight, np.array([(40.0, -0.3, 2.0), (40.0, 3.5, 2.0)])).plan
     assert found is not None
     assert found.path.evaluate(np.linspace(*found.path.domain, 900))[:, 1].min() < -2.0
+
+
+@given(st.floats(-0.9, 0.9), st.floats(-0.3, 0.3), st.floats(3.2, 4.2))
+def test_it_goes_past_both_of_two_discs_between_which_it_has_no_room(
+    beside: float, along: float, gap: float
+) -> None:
+    straight = plan(mission((0, 0), (120, 0)))
+    row = [(60.0, beside, 2.1), (60.0 + along, beside + gap, 2.1), (60.0, beside - gap, 2.1)]
+    found = stepped_aside(straight, np.array(row)).plan
+    assert found is not None
+    line = found.path.evaluate(np.linspace(*found.path.domain, 9000))
+    for x, y, kept in row:
+        assert np.hypot(*(line - (x, y)).T).min() >= kept - 2e-4
+    assert found.path.length < straight.path.length + 12.0
+    assert found.drivability.sharpest_radius > 1.0
 
 
 def test_it_swings_through_a_via_point_that_is_near() -> None:

@@ -37,6 +37,8 @@ HAIR_M = 1e-4
 """What is left of that where a via point is nearer to a resting place [m], at least."""
 IN_SIGHT_M = 4.0
 """Once a path is led round something, it sees others that it comes so near to [m]."""
+MAX_LOOKS = 4
+"""How often a path steps aside, each time for those as well that it saw aside."""
 MAX_ROUNDS = 12
 """How often a path is laid, with ever more in its way, or less."""
 
@@ -84,19 +86,41 @@ def lay_among_rests(
         met = eased.near(plan.path.spans, reach + ENOUGH_MORE_M, out)
         if not met.size:
             break
-        seen = eased.near(plan.path.spans, reach + IN_SIGHT_M, out)
-        aside, others = _aside(plan, reach, eased, seen)
-        if aside is not None and not eased.near(aside.path.spans, reach + ENOUGH_MORE_M, out).size:
+        aside, seen, others = _aside(plan, reach, eased, out)
+        if aside is not None:
             plan = aside
             break
-        round_them.update(others if set(others) - round_them else seen.tolist())
+        round_them.update(_more_in_the_way(eased, reach, round_them, others, seen))
         plan, past = _laid(alone, mission, reach, eased, round_them, past)
         round_them -= past
-    passed = [rests.places[k] for k in rests.near(plan.path.spans, reach, own).tolist()]
-    stands = [k for k, one in enumerate(rests.places) if one in passed and k in stuck]
+    passed = rests.near(plan.path.spans, reach, own).tolist()
+    stands = [k for k in passed if k in stuck]
     if stands:
         raise no_way_past_stranded(alone, mission, reach, rests, stands)
-    return LaidPath(plan, tuple(passed))
+    return LaidPath(plan, tuple(rests.places[k] for k in passed))
+
+
+def _more_in_the_way(
+    rests: RestingPlaces, reach: float, round_them: set[int], others: Sequence[int], seen: Ints
+) -> Sequence[int]:
+    """Places that a path is to be laid round as well: a few, as each of them takes its time.
+
+    Args:
+        rests: Of all robots.
+        reach: How far the robot keeps others away on its part [m].
+        round_them: Those that it is laid round already.
+        others: Those for which there was no room to step aside.
+        seen: All that the path comes near to.
+    """
+    if set(others) - round_them:
+        return others
+    at, beside = rests.rows[seen], np.zeros(len(seen), np.bool_)
+    for k in others:
+        x, y, its = rests.rows[k]
+        gap = np.hypot(at[:, 0] - x, at[:, 1] - y) - at[:, 2] - its
+        beside |= gap < 2.0 * (reach + KEPT_MORE_M)  # no room between the two
+    near: list[int] = seen[beside].tolist()
+    return near if set(near) - round_them else seen.tolist()
 
 
 def _eased(
@@ -121,17 +145,38 @@ def _points(mission: Mission) -> Floats:
 
 
 def _aside(
-    plan: Plan, reach: float, rests: RestingPlaces, seen: Ints
-) -> tuple[Plan | None, list[int]]:
-    """The plan that steps aside for resting places, or else those that it is to be laid round."""
+    plan: Plan, reach: float, rests: RestingPlaces, out: frozenset[int]
+) -> tuple[Plan | None, Ints, list[int]]:
+    """The plan that steps aside for resting places.
+
+    Args:
+        plan: It as it is.
+        reach: How far the robot keeps others away on its part [m].
+        rests: Of all robots.
+        out: Indices of those that don't count.
+
+    Returns:
+        (the plan; None where there is no such, those that it sees, those of them that it is to be
+        laid round then).
+    """
+    seen = rests.near(plan.path.spans, reach + IN_SIGHT_M, out)
     if not can_step_aside(plan):
-        return None, seen.tolist()
-    discs = rests.rows[seen]
-    discs[:, 2] += reach + KEPT_MORE_M
-    found = stepped_aside(plan, discs)
-    if found.no_room_for is None:
-        return found.plan, seen.tolist()
-    return None, [int(seen[found.no_room_for])]
+        return None, seen, seen.tolist()
+    for _ in range(MAX_LOOKS):
+        discs = rests.rows[seen]
+        discs[:, 2] += reach + KEPT_MORE_M
+        found = stepped_aside(plan, discs)
+        if found.no_room_for is not None:
+            return None, seen, [int(seen[found.no_room_for])]
+        if found.plan is None:
+            break
+        met = rests.near(found.plan.path.spans, reach + ENOUGH_MORE_M, out)
+        if not met.size:
+            return found.plan, seen, []
+        if np.isin(met, seen).all():
+            break
+        seen = np.union1d(seen, rests.near(found.plan.path.spans, reach + IN_SIGHT_M, out))
+    return None, seen, seen.tolist()
 
 
 def _laid(

@@ -24,9 +24,10 @@ from viaspline.kernels.fleet.fleet_motion import (
     stage_place,
 )
 from viaspline.kernels.fleet.fleet_windows import (
-    Windowed,
+    WindowGrid,
+    Windows,
     bucket_of,
-    cover_window,
+    cover_windows,
     file_window,
     window_times,
 )
@@ -47,6 +48,10 @@ BEST_COLUMNS: Final = 7
 HALF_SLACK = 5e-7  # half of PROOF_SLACK_M [m]
 GROWTH = 4.0  # of the distance that is looked at, while nothing is found
 DEEPEST = 40
+BUCKETS_EACH = 8
+"""So many buckets there are for each robot: most of those that are looked into are empty."""
+AT_ONCE = 16
+"""So many windows are covered at once: what is known of a robot lies together in memory."""
 
 
 @inlined
@@ -184,26 +189,27 @@ def _follow(
 @inner
 def _look(
     courses: PackedCourses, laws: PackedLaws, begin: float, end: float, tolerance: float,
-    is_here: Ints, now: Windowed, stack: Floats, at: Floats, best: Floats, pair: Ints,
+    now: Windows, first: int, grid: WindowGrid, stack: Floats, at: Floats, best: Floats, pair: Ints,
 ) -> None:  # fmt: skip
-    """Follow all pairs of robots whose boxes overlap in a window."""
-    mask = now.head.shape[0] - 1
-    box = now.box
-    for i in range(is_here.shape[0]):
-        if not is_here[i, 0]:
+    """Follow all pairs of robots whose boxes overlap in a window; see ``file_window``."""
+    mask, box = grid.head.shape[0] - 1, now.box
+    for i in range(grid.following.shape[0]):
+        if now.stage[first + i, 0] < 0:
             continue
+        low_x, low_y = box[first + i, 0], box[first + i, 1]
+        high_x, high_y = box[first + i, 2], box[first + i, 3]
         for beside in range(9):
-            x, y = now.square[i, 0] + beside // 3 - 1, now.square[i, 1] + beside % 3 - 1
-            j = now.head[bucket_of(x, y, mask), 0]
+            x, y = grid.square[i, 0] + beside // 3 - 1, grid.square[i, 1] + beside % 3 - 1
+            j = grid.head[bucket_of(x, y, mask), 0]
             while j > i:  # a bucket has its robots from the last one on
-                is_near = now.square[j, 0] == x and now.square[j, 1] == y
-                is_near = is_near and box[j, 0] <= box[i, 2] and box[j, 2] >= box[i, 0]
-                if is_near and box[j, 1] <= box[i, 3] and box[j, 3] >= box[i, 1]:
+                is_near = grid.square[j, 0] == x and grid.square[j, 1] == y
+                is_near = is_near and box[first + j, 0] <= high_x and box[first + j, 2] >= low_x
+                if is_near and box[first + j, 1] <= high_y and box[first + j, 3] >= low_y:
                     _follow(
-                        courses, laws, i, j, now.stage[i, 0], now.stage[j, 0], begin, end,
-                        tolerance, stack, at, best, pair,
+                        courses, laws, i, j, now.stage[first + i, 0], now.stage[first + j, 0],
+                        begin, end, tolerance, stack, at, best, pair,
                     )  # fmt: skip
-                j = now.following[j, 0]
+                j = grid.following[j, 0]
 
 
 @kernel
@@ -230,13 +236,19 @@ def fleet_tightest(
         best[0, column] = 0.0
     pair[0, 0], pair[0, 1] = -1, -1
     buckets = 16
-    while buckets < 2 * robots:
+    while buckets < BUCKETS_EACH * robots:
         buckets *= 2
-    now = Windowed(
-        new_ints(robots, 1), new_floats(robots, 4), new_ints(robots, 2), new_ints(buckets, 1),
-        new_ints(robots, 1),
+    grid = WindowGrid(new_ints(robots, 2), new_ints(buckets, 1), new_ints(robots, 1))
+    for robot in range(robots):
+        grid.square[robot, 0], grid.square[robot, 1] = 0, 0
+    for bucket in range(buckets):
+        grid.head[bucket, 0] = -1
+    rows = AT_ONCE * robots
+    now = Windows(
+        new_ints(robots, 1), new_ints(rows, 1), new_floats(rows, 4), new_floats(rows, 2),
+        new_floats(AT_ONCE, 1),
     )  # fmt: skip
-    is_here, stack, at = new_ints(robots, 1), new_floats(DEEPEST + 2, 7), new_floats(1, 4)
+    times, stack, at = new_floats(AT_ONCE + 1, 1), new_floats(DEEPEST + 2, 7), new_floats(1, 4)
     begin, end, lasts = window_times(courses, laws)
     within = 0.25 * max(lasts, 1.0)
     for robot in range(robots):
@@ -246,14 +258,21 @@ def fleet_tightest(
     while count > 1 and pair[0, 0] < 0:
         best[0, LOWER], best[0, UPPER] = within, within
         for robot in range(robots):
-            now.stage[robot, 0] = 2 * courses.first[robot]
+            now.reached[robot, 0] = 2 * courses.first[robot]
         windows = 1 if not end > begin else math.ceil((end - begin) / lasts)
-        for window in range(windows):
-            since = min(begin + window * lasts, max(begin, end))
-            until = min(begin + (window + 1) * lasts, max(begin, end))
-            side = cover_window(courses, laws, since, until, 0.5 * within, now)
-            file_window(laws, max(side, 1e-9), is_here, now)
-            _look(courses, laws, since, until, tolerance, is_here, now, stack, at, best, pair)
+        for window in range(0, windows, AT_ONCE):
+            some = min(AT_ONCE, windows - window)
+            for k in range(some + 1):
+                times[k, 0] = min(begin + (window + k) * lasts, max(begin, end))
+            least = max(best[0, UPPER], 0.0)  # what is farther apart needn't be looked at any more
+            less = 0.5 * (within - least)
+            cover_windows(courses, laws, times, some, 0.5 * within, less, now)
+            for k in range(some):
+                file_window(now, k * robots, max(now.widest[k, 0], 1e-9), grid)
+                _look(
+                    courses, laws, times[k, 0], times[k + 1, 0], tolerance, now, k * robots, grid,
+                    stack, at, best, pair,
+                )  # fmt: skip
         within *= GROWTH
     return (
         min(best[0, LOWER], best[0, UPPER]), best[0, WHEN], best[0, FIRST_X], best[0, FIRST_Y],

@@ -1,4 +1,4 @@
-"""A window of time in which robots of a fleet are looked at: what holds their ways, in a grid.
+"""Windows of time in which robots of a fleet are looked at: what holds their ways, in a grid.
 
 Tested through ``fleet/test_fleet_certificate``.
 """
@@ -22,19 +22,34 @@ PRIME_X: Final = 73856093
 PRIME_Y: Final = 19349663
 
 
-class Windowed(NamedTuple):
-    """What the robots do in a window of time, and the grid of that.
+class Windows(NamedTuple):
+    """What robots do in some windows of time behind each other: row w n + r is of robot r in w.
 
     Attributes:
-        stage: In which each robot is when the window begins, (n, 1).
-        box: What holds its way in it, grown by its reach: (x and y, from and to) [m], (n, 4).
-        square: The square of its box's middle, (n, 2).
-        head: The first robot of a bucket, or -1, (buckets, 1); the buckets are a power of two.
-        following: The next one in its bucket, or -1, (n, 1).
+        reached: In which stage each robot is when the next windows begin, (n, 1).
+        stage: In which it is when a window begins; -1 where it has left, (windows n, 1).
+        box: What holds its way in a window, grown by its reach: (x and y, from and to) [m],
+            (windows n, 4).
+        middle: Of that box [m], (windows n, 2).
+        widest: The widest extent of boxes in each window [m], (windows, 1).
     """
 
+    reached: Ints
     stage: Ints
     box: Floats
+    middle: Floats
+    widest: Floats
+
+
+class WindowGrid(NamedTuple):
+    """The robots of one window by the squares in which the middles of their boxes lie.
+
+    Attributes:
+        square: (n, 2).
+        head: The last robot of a bucket, or -1, (buckets, 1); the buckets are a power of two.
+        following: The one before it in its bucket, or -1, (n, 1).
+    """
+
     square: Ints
     head: Ints
     following: Ints
@@ -49,39 +64,63 @@ def _advanced(laws: PackedLaws, stage: int, last: int, instant: float) -> int:
 
 
 @inner
-def cover_window(
-    courses: PackedCourses, laws: PackedLaws, begin: float, end: float, more: float,
-    now: Windowed,
-) -> float:  # fmt: skip
-    """Move all robots on to a window and cover their ways in it. The widest extent [m]."""
-    widest = 0.0
-    for robot in range(courses.reach.shape[0]):
+def cover_windows(
+    courses: PackedCourses, laws: PackedLaws, times: Floats, count: int, more: float, less: float,
+    now: Windows,
+) -> None:  # fmt: skip
+    """Move all robots on through some windows and cover their ways in each.
+
+    Robot by robot, as what is known of a robot lies together.
+
+    Args:
+        courses: PackedCourses.
+        laws: PackedLaws.
+        times: When each window begins, and the last one ends [s], (count + 1, 1) or more.
+        count: How many windows.
+        more: By how much boxes are grown beyond reaches [m].
+        less: How much of that is left away again, but in their extents [m].
+        now: Filled.
+    """
+    robots = courses.reach.shape[0]
+    for window in range(count):
+        now.widest[window, 0] = 0.0
+    for robot in range(robots):
         if not laws.is_timed[robot]:
+            for window in range(count):
+                now.stage[window * robots + robot, 0] = -1
             continue
         last = 2 * (courses.first[robot + 1] - 1)
-        stage = _advanced(laws, now.stage[robot, 0], last, begin)
-        now.stage[robot, 0] = stage
-        if stage == last and laws.leave[stage >> 1] < begin:
-            now.square[robot, 0] = -1  # it has left
-            continue
-        x, y = stage_place(courses, laws, stage, begin)
-        low_x, low_y, high_x, high_y = x, y, x, y
-        error = stage_error(courses, laws, stage)
-        while stage < last and stage_end(laws, stage) < end:
-            stage += 1
-            x, y = courses.place[stage >> 1, 0], courses.place[stage >> 1, 1]
-            low_x, low_y = min(low_x, x), min(low_y, y)
-            high_x, high_y = max(high_x, x), max(high_y, y)
-            error = max(error, stage_error(courses, laws, stage))
-        x, y = stage_place(courses, laws, stage, end)
-        grown = courses.reach[robot] + error + more
-        low_x, low_y = min(low_x, x) - grown, min(low_y, y) - grown
-        high_x, high_y = max(high_x, x) + grown, max(high_y, y) + grown
-        now.box[robot, 0], now.box[robot, 1] = low_x, low_y
-        now.box[robot, 2], now.box[robot, 3] = high_x, high_y
-        now.square[robot, 0] = 0
-        widest = max(widest, max(high_x - low_x, high_y - low_y))
-    return widest
+        reached = now.reached[robot, 0]
+        for window in range(count):
+            begin, end, row = times[window, 0], times[window + 1, 0], window * robots + robot
+            stage = _advanced(laws, reached, last, begin)
+            now.stage[row, 0] = stage
+            if stage == last and laws.leave[stage >> 1] < begin:
+                now.stage[row, 0] = -1  # it has left
+                reached = stage
+                continue
+            x, y = stage_place(courses, laws, stage, begin)
+            low_x, low_y, high_x, high_y = x, y, x, y
+            error = stage_error(courses, laws, stage)
+            while stage < last and stage_end(laws, stage) < end:
+                stage += 1
+                if stage & 1:  # it goes on from where it was
+                    error = max(error, stage_error(courses, laws, stage))
+                else:
+                    x, y = courses.place[stage >> 1, 0], courses.place[stage >> 1, 1]
+                    low_x, low_y = min(low_x, x), min(low_y, y)
+                    high_x, high_y = max(high_x, x), max(high_y, y)
+            reached = stage
+            x, y = stage_place(courses, laws, stage, end)
+            grown = courses.reach[robot] + error + more
+            low_x, low_y = min(low_x, x) - grown, min(low_y, y) - grown
+            high_x, high_y = max(high_x, x) + grown, max(high_y, y) + grown
+            now.middle[row, 0], now.middle[row, 1] = 0.5 * (low_x + high_x), 0.5 * (low_y + high_y)
+            now.box[row, 0], now.box[row, 1] = low_x + less, low_y + less
+            now.box[row, 2], now.box[row, 3] = high_x - less, high_y - less
+            extent = max(high_x - low_x, high_y - low_y)
+            now.widest[window, 0] = max(now.widest[window, 0], extent)
+        now.reached[robot, 0] = reached
 
 
 @inlined
@@ -91,23 +130,29 @@ def bucket_of(x: int, y: int, mask: int) -> int:
 
 
 @inner
-def file_window(laws: PackedLaws, side: float, is_here: Ints, now: Windowed) -> None:
-    """Put the boxes of a window into the grid, each by its middle."""
-    mask = now.head.shape[0] - 1
-    for bucket in range(mask + 1):
-        now.head[bucket, 0] = -1
-    for robot in range(is_here.shape[0]):
-        is_here[robot, 0] = laws.is_timed[robot] and now.square[robot, 0] == 0
-        if is_here[robot, 0]:
-            x = math.floor(0.5 * (now.box[robot, 0] + now.box[robot, 2]) / side)
-            y = math.floor(0.5 * (now.box[robot, 1] + now.box[robot, 3]) / side)
-            now.square[robot, 0], now.square[robot, 1] = x, y
+def file_window(now: Windows, first: int, side: float, grid: WindowGrid) -> None:
+    """Put the boxes of a window into the grid, each by its middle.
+
+    Args:
+        now: The windows.
+        first: The row of the first robot in it.
+        side: Of the squares [m].
+        grid: Filled; empty, or as a window before left it.
+    """
+    mask = grid.head.shape[0] - 1
+    for robot in range(grid.following.shape[0]):  # those of the window before
+        grid.head[bucket_of(grid.square[robot, 0], grid.square[robot, 1], mask), 0] = -1
+    for robot in range(grid.following.shape[0]):
+        row = first + robot
+        if now.stage[row, 0] >= 0:
+            x = math.floor(now.middle[row, 0] / side)
+            y = math.floor(now.middle[row, 1] / side)
+            grid.square[robot, 0], grid.square[robot, 1] = x, y
             bucket = bucket_of(x, y, mask)
-            now.following[robot, 0] = now.head[bucket, 0]
-            now.head[bucket, 0] = robot
-    for robot in range(is_here.shape[0]):
-        if not is_here[robot, 0]:
-            now.following[robot, 0] = -1
+            grid.following[robot, 0] = grid.head[bucket, 0]
+            grid.head[bucket, 0] = robot
+        else:
+            grid.following[robot, 0] = -1
 
 
 @inner

@@ -37,6 +37,14 @@ def cut_half(
 
 
 @inner
+def _welded(spans: Floats, first: int, last: int) -> None:
+    """Let spans begin where those before them end, to the last bit: both were moved there."""
+    for k in range(first, last):
+        for axis in range(2):
+            spans[k, 0, axis] = spans[k - 1, 3, axis]
+
+
+@inner
 def moved_aside(
     spans: Floats, marks: Ints, count: int, k: int, w: float, wide: float, shortest: float,
     bend: float,
@@ -100,4 +108,5 @@ def moved_aside(
             return count, 0, 0
         bend1 = bend0
     marks[apex] = ASIDE
+    _welded(spans, max(first, 1), min(last + 1, count))
     return count, first, last

@@ -70,8 +70,6 @@ def swerved_path(
         )
         if first == last:
             continue
-        for j in range(max(first, 1), min(last + 1, now)):
-            trial[j, 0, 0], trial[j, 0, 1] = trial[j - 1, 3, 0], trial[j - 1, 3, 1]
         if (conflicts(world, trial[first:last], required)[0] != CLEAR).any():
             continue
         count, is_made[i] = now, True
