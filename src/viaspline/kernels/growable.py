@@ -9,18 +9,23 @@ import numpy as np
 
 from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.jit import inner
+from viaspline.kernels.large_pages import in_large_pages
 
 
 @inner
 def new_floats(count: int, columns: int) -> Floats:
     """Rows that are yet to be written."""
-    return np.empty((count, columns))
+    table = np.empty((count, columns))
+    in_large_pages(table)
+    return table
 
 
 @inner
 def new_ints(count: int, columns: int) -> Ints:
     """Rows that are yet to be written."""
-    return np.empty((count, columns), np.int64)
+    table = np.empty((count, columns), np.int64)
+    in_large_pages(table)
+    return table
 
 
 @inner

@@ -11,6 +11,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
+from viaspline.kernels.growable import new_floats, new_ints
 from viaspline.kernels.jit import inlined, inner, kernel
 
 
@@ -62,17 +63,51 @@ def _put_box(
 
 
 @inner
-def _box_counts(kept: PackedCrossings, fresh: PackedCrossings, number: Ints) -> Ints:
+def _loses_some(kept: PackedCrossings, number: Ints) -> Flags:
+    """Which robots have boxes that aren't kept, (n,)."""
+    loses = np.zeros(kept.box_first.size - 1, np.bool_)
+    for k in range(number.size):
+        if number[k] < 0:
+            loses[kept.robots[k, 0]] = loses[kept.robots[k, 1]] = True
+    return loses
+
+
+@inner
+def _box_counts(
+    kept: PackedCrossings, fresh: PackedCrossings, number: Ints, loses: Flags
+) -> Ints:  # fmt: skip
     """Where the boxes of each robot begin, (n + 1,)."""
     robots = kept.box_first.size - 1
     first = np.zeros(robots + 1, np.int64)
     for robot in range(robots):
         count = fresh.box_first[robot + 1] - fresh.box_first[robot]
-        for i in range(kept.box_first[robot], kept.box_first[robot + 1]):
-            if number[kept.crossing[i]] >= 0:
-                count += 1
+        begin, end = kept.box_first[robot], kept.box_first[robot + 1]
+        if not loses[robot]:
+            count += end - begin
+        else:
+            for i in range(begin, end):
+                if number[kept.crossing[i]] >= 0:
+                    count += 1
         first[robot + 1] = first[robot] + count
     return first
+
+
+@inner
+def _put_all(
+    to: PackedCrossings, at: int, source: PackedCrossings, begin: int, end: int, moved: int,
+    number: Ints,
+) -> None:  # fmt: skip
+    """Copy boxes of a robot that keeps them all, an array after the other."""
+    for i in range(begin, end):
+        to.cell[at + i - begin] = source.cell[i] + moved
+    for i in range(begin, end):
+        to.crossing[at + i - begin] = number[source.crossing[i]]
+    for i in range(begin, end):
+        to.other[at + i - begin] = source.other[i]
+    for i in range(begin, end):
+        to.low[at + i - begin] = source.low[i]
+    for i in range(begin, end):
+        to.high[at + i - begin] = source.high[i]
 
 
 @kernel
@@ -91,15 +126,21 @@ def renewed_boxes(
         The fields of ``PackedCrossings``, in their order.
     """
     robots, span, number, fresh_number = _merged_pairs(kept, fresh, is_changed)
-    first = _box_counts(kept, fresh, number)
+    loses = _loses_some(kept, number)
+    first = _box_counts(kept, fresh, number, loses)
     boxes = first[first.size - 1]
     to = PackedCrossings(
-        robots, span, first, np.empty(boxes, np.int64), np.empty(boxes, np.int64),
-        np.empty(boxes, np.int64), np.empty(boxes), np.empty(boxes),
+        robots, span, first, new_ints(boxes, 1)[:, 0], new_ints(boxes, 1)[:, 0],
+        new_ints(boxes, 1)[:, 0], new_floats(boxes, 1)[:, 0], new_floats(boxes, 1)[:, 0],
     )  # fmt: skip
     at = 0
     for robot in range(is_changed.size):
         j, news = fresh.box_first[robot], fresh.box_first[robot + 1]
+        if j == news and not loses[robot]:
+            begin, end = kept.box_first[robot], kept.box_first[robot + 1]
+            _put_all(to, at, kept, begin, end, moved[robot], number)
+            at += end - begin
+            continue
         for i in range(kept.box_first[robot], kept.box_first[robot + 1]):
             if number[kept.crossing[i]] < 0:
                 continue

@@ -1,7 +1,8 @@
 """The offsets from a row of places at which a path bends least, between bounds.
 
-A thin strip under tension: its bending is priced against its length. The bounds are kept by an
-interior point method; every step is a system of five diagonals.
+A thin strip under tension: its bending is priced against its length. Where no bound is
+met one system of five diagonals tells; else bounds are kept by an interior point method, of which
+every step is such a system.
 """
 
 from __future__ import annotations
@@ -174,6 +175,33 @@ def _slopes_at(
     step[count - 2] -= seam[1] * turned
 
 
+@inner
+def _is_free(
+    bands: Floats, slopes: Floats, fixed: Flags, seam: Floats, lower: Floats, upper: Floats,
+    moved: Floats, more: Floats, across: Floats, work: Floats,
+) -> bool:  # fmt: skip
+    """Whether no bound is met where it costs least without any: into ``moved`` then, else zeros."""
+    for j in range(moved.size):
+        moved[j] = -slopes[j]
+    _solve_round(bands, more, fixed, seam, moved, across, work)
+    is_free = True
+    for j in range(moved.size):
+        is_free = is_free and (fixed[j] or lower[j] < moved[j] < upper[j])
+    if not is_free:
+        moved[:] = 0.0
+    return is_free
+
+
+@inner
+def _most_turned(places: Floats, moved: Floats) -> float:
+    """By how much a step is turned at most [rad]."""
+    turned = 0.0
+    for j in range(moved.size - 1):
+        dx, dy = places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
+        turned = max(turned, abs(moved[j + 1] - moved[j]) / math.hypot(dx, dy))
+    return turned
+
+
 @kernel
 def bent_strip(
     places: Floats, normals: Floats, lower: Floats, upper: Floats, fixed: Flags, closed: bool,
@@ -202,6 +230,8 @@ def bent_strip(
     low, high = np.zeros(count), np.zeros(count)
     product = FIRST_PRODUCT * max(bending, 1e-12) / count
     least = SETTLED * product
+    if _is_free(bands, slopes, fixed, seam, lower, upper, moved, more, across, work):
+        return moved, low, _most_turned(places, moved)
     for j in range(count):
         if not fixed[j]:
             slack = LEAST_SLACK * (upper[j] - lower[j])
@@ -241,8 +271,4 @@ def bent_strip(
         product = max(worst, least)
         if worst <= least:
             break
-    turned = 0.0
-    for j in range(count - 1):
-        dx, dy = places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
-        turned = max(turned, abs(moved[j + 1] - moved[j]) / math.hypot(dx, dy))
-    return moved, low - high, turned
+    return moved, low - high, _most_turned(places, moved)
