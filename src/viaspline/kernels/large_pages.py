@@ -20,7 +20,9 @@ LEAST_BYTES = 1 << 22  # smaller tables aren't worth it; numpy's limit as well
 PAGE = 4096
 ADVICE = 14  # MADV_HUGEPAGE of Linux; another system says that it doesn't know it
 
-if sys.platform == "linux" and not numba.config.DISABLE_JIT:
+_config: Any = numba.config  # which says nothing of its types
+
+if sys.platform == "linux" and not _config.DISABLE_JIT:
     _madvise: Any = types.ExternalFunction(
         "madvise", types.intc(types.uintp, types.uintp, types.intc)
     )
