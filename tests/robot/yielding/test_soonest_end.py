@@ -110,6 +110,7 @@ def test_a_way_is_timed_if_it_may_be_soon_enough_and_left_out_if_it_cannot(
     monkeypatch.setattr(ways_past, "meeting_ahead", lambda *_: SimpleNamespace())
     paths: Any = Swerves(context)
     monkeypatch.setattr(Swerves, "path", lambda *_: SimpleNamespace(path=path))
+    monkeypatch.setattr(Swerves, "fastest", lambda *_: SimpleNamespace(end_time=-math.inf))
     soonest, spent = soonest_end(context, path), []
     for before in (soonest, soonest + 1e-3):
         budget = WorkBudget(1.0)
@@ -118,3 +119,8 @@ def test_a_way_is_timed_if_it_may_be_soon_enough_and_left_out_if_it_cannot(
         spent.append(budget.spent)
         assert timed == ([] if before == soonest else [path])
     assert spent[0] == spent[1] > 0.0
+    timed.clear()
+    monkeypatch.setattr(Swerves, "fastest", lambda *_: None)
+    first, *_ = ways_past.ways_past(context, context.schedule.trajectory, paths, soonest + 1e-3)
+    assert first(budget) is None
+    assert timed == []  # no law at all: none past what moves is asked for

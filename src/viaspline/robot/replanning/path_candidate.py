@@ -59,15 +59,11 @@ def timed(
     Raises:
         SpentBudgetError: When there is no time left for that.
     """
-    schedule, leave = replace(context.schedule, held_at=math.inf), solution.changed_from
-    corners = tuple(turn for turn in schedule.turns if turn <= leave + SAME_PLACE_M)
-    stands = mode == "from_rest"
-    if stands:
-        corners = (*corners, context.stop, *turns)
+    corners, stands = _corners(context, mode, solution, turns), mode == "from_rest"
+    trajectory = first_law(context, mode, solution, turns)
+    if trajectory is None:
+        return None
     try:
-        trajectory = _in_sight(context, solution, corners, (), stands=stands)
-        if trajectory.over_limit_until is not None and not stands:
-            return None
         slow = slow_enough(
             context, solution, lambda slow: _as_if_seen(context, solution, corners, slow)
         )
@@ -77,7 +73,39 @@ def timed(
         return None  # it could not stop within what it has seen of it
     if slow is None:
         return None
-    return PathCandidate(mode, solution, corners, trajectory, slow, schedule.reduced)
+    return PathCandidate(mode, solution, corners, trajectory, slow, context.schedule.reduced)
+
+
+def first_law(
+    context: ReplanContext, mode: Mode, solution: Solution, turns: tuple[float, ...] = ()
+) -> Trajectory | None:
+    """The trajectory of a path by which it is tried out; None: the robot is too fast for any.
+
+    Args:
+        context: The robot under way.
+        mode: How the path was found.
+        solution: The path.
+        turns: As for ``timed``.
+
+    Raises:
+        SpentBudgetError: When there is no time left for that.
+    """
+    corners, stands = _corners(context, mode, solution, turns), mode == "from_rest"
+    try:
+        trajectory = _in_sight(context, solution, corners, (), stands=stands)
+    except GeometryError:
+        return None  # it could not stop within what it has seen of it
+    is_too_fast = trajectory.over_limit_until is not None and not stands
+    return None if is_too_fast else trajectory
+
+
+def _corners(
+    context: ReplanContext, mode: Mode, solution: Solution, turns: tuple[float, ...]
+) -> tuple[float, ...]:
+    """Distances along a path where the robot turns on the spot [m]; from rest where it stops."""
+    leave = solution.changed_from
+    corners = tuple(turn for turn in context.schedule.turns if turn <= leave + SAME_PLACE_M)
+    return (*corners, context.stop, *turns) if mode == "from_rest" else corners
 
 
 def _in_sight(

@@ -17,10 +17,12 @@ from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.departure import rolling, standing
 from viaspline.planning.swerve import Swerving, may_swerve
 from viaspline.robot.navigation.knowledge import Knowledge
-from viaspline.robot.replanning.path_candidate import PathCandidate, timed
+from viaspline.robot.replanning.path_candidate import PathCandidate, first_law, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Mode
 from viaspline.robot.yielding.swerve_places import swerve_places
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.moving_obstacles import MovingObstacles
 
 SWERVES = 5
 """So many places are tried."""
@@ -41,6 +43,7 @@ class Swerves:
 
     context: ReplanContext
     _laid: dict[int, Solution | None] = field(default_factory=dict, init=False)
+    _fastest: dict[int, Trajectory | None] = field(default_factory=dict, init=False)
 
     @cached_property
     def places(self) -> Floats:
@@ -71,6 +74,23 @@ class Swerves:
             self._laid[number] = self._through(number)
         return self._laid[number]
 
+    def fastest(self, number: int) -> Trajectory | None:
+        """The law of one of the paths if nothing moved; None: there is none, whatever moves.
+
+        No law past what moves ends sooner; and where the robot is too fast for how the path
+        begins, it is so for every law.
+        """
+        if number not in self._fastest:
+            self._fastest[number] = self._alone(number)
+        return self._fastest[number]
+
+    def _alone(self, number: int) -> Trajectory | None:
+        path = self.path(number)
+        if path is None:
+            return None
+        known = replace(self.context.knowledge, moving=MovingObstacles())
+        return first_law(replace(self.context, knowledge=known), _mode(self.context), path)
+
     def _through(self, number: int) -> Solution | None:
         if self._swerving is None:
             return None
@@ -100,13 +120,17 @@ def driven(
         known: What the laws keep clear of.
     """
     as_known = replace(context, knowledge=known)
-    mode: Mode = "from_rest" if context.speed == 0.0 else "planned"
     found = []
     for solution in solutions:
         try:
-            candidate = timed(as_known, mode, solution)
+            candidate = timed(as_known, _mode(context), solution)
         except PlanningError:
             continue
         if candidate is not None:
             found.append(candidate)
     return found
+
+
+def _mode(context: ReplanContext) -> Mode:
+    """How a robot goes over to a swerve."""
+    return "from_rest" if context.speed == 0.0 else "planned"

@@ -104,13 +104,20 @@ def ways_past(
 def _swerved(
     context: ReplanContext, paths: Swerves, number: int, before: float, budget: WorkBudget
 ) -> PathCandidate | None:
-    """A path by a place beside the robot's own, with its law; None if it ends too late."""
+    """A path by a place beside the robot's own, with its law; None if it ends too late.
+
+    It is asked for with each room to spare: what no law at all serves isn't searched for any. The
+    work that is reckoned is the same, so as many ways are tried in a step.
+    """
     path = paths.path(number)
     if path is None:
         budget.spent += LAID_S
         return None
     budget.spent += LAW_AMONG_S
     if soonest_end(context, path.path) >= before:
+        return None
+    fastest = paths.fastest(number)
+    if fastest is None or fastest.end_time >= before:
         return None
     return next(iter(driven(context, (path,), context.knowledge)), None)
 
