@@ -399,3 +399,20 @@ def test_what_cuts_a_proof_off_is_not_taken_for_one(monkeypatch: pytest.MonkeyPa
     outcome = law_among(line(), LIMITS, moving=moving, required=0.5, budget=budget)
     assert isinstance(outcome, GaveUp)
     assert "depart_s" in outcome.would_help
+
+
+@pytest.mark.parametrize("apart", [1e-12, 1e-9, 1e-7])
+@pytest.mark.parametrize("at", [1.5, 3.0, 14.5])
+def test_stations_that_rounding_keeps_apart_are_one_station(at: float, apart: float) -> None:
+    """A lattice between the two had places that are nearer to each other than numbers can be."""
+    cart = Obstacle(
+        circle={"center": (0, 0), "radius": 1},
+        motion={"from": (at + 0.5, -8.0), "velocity_mps": (0, 1.0)},
+    )
+    moving, other = MovingObstacles([cart]), max(at + apart, float(np.nextafter(at, 99.0)))
+    two = [Station(at, 2.0), Station(other, 3.0)]
+    found = law_among(line(), LIMITS, two, moving=moving, required=0.5)
+    one = law_among(line(), LIMITS, [Station(other, 5.0)], moving=moving, required=0.5)
+    assert isinstance(found, Found) == isinstance(one, Found)
+    if isinstance(found, Found) and isinstance(one, Found):
+        assert found.value.duration == pytest.approx(one.value.duration, abs=2e-3)

@@ -22,8 +22,9 @@ from viaspline.trajectory.slow_zones import Slow, slow_between
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_knots import LawKnots
 
-SAME_PLACE_M = 1e-9
-"""A rest that is no farther ahead is where the robot stands already [m]."""
+SAME_PLACE_M = 1e-6
+"""Rests that are no farther apart are one, and one so near ahead is where the robot stands [m]: a
+lattice between rests that only rounding keeps apart has places that no number tells apart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,14 +69,20 @@ class Course:
         return cls(path, limits, stops, stage, static)
 
     def stretches(self) -> tuple[Floats, Floats, Floats]:
-        """Ends of stretches (n + 1,) [m], the largest speed on each (n,) [m/s], and rests [m]."""
+        """Ends of stretches (n + 1,) [m], the largest speed on each (n,) [m/s], and rests [m].
+
+        Of rests in one place the last one counts.
+        """
         line, caps, is_rest = stretches_of(self.path, self.limits, self.stage)
-        rests = line[is_rest & (line > self.stage.start + SAME_PLACE_M)]
-        return line, np.sqrt(caps), np.unique(np.append(rests, self.stage.end))
+        ahead = line[is_rest & (line > self.stage.start + SAME_PLACE_M)]
+        rests = np.unique(np.append(ahead, self.stage.end))
+        is_last = np.append(np.diff(rests) > SAME_PLACE_M, True)
+        return line, np.sqrt(caps), rests[is_last]
 
     def dwell(self, distance: float) -> float:
         """How long the robot stays at a distance [s]."""
-        return sum(stop.dwell for stop in self.stops if stop.distance == distance)
+        here = (stop for stop in self.stops if abs(stop.distance - distance) <= SAME_PLACE_M)
+        return sum(stop.dwell for stop in here)
 
     def onset(self) -> LawKnots:
         """The law until it can be chosen: where the robot is too fast, it brakes."""
