@@ -114,6 +114,12 @@ def test_a_start_too_fast_to_stop_at_a_station_is_refused() -> None:
         retime(line(30.0), LIMITS, start=29.0, start_speed=2.0)
 
 
+def test_nobody_stops_at_once_where_a_path_ends() -> None:
+    with pytest.raises(GeometryError, match=r"can't stop at 10 m: from 0.1 m/s at 10 m"):
+        retime(line(10.0), LIMITS, start=10.0, start_speed=0.1)
+    assert retime(line(10.0), LIMITS, start=10.0, start_speed=1e-5).duration == 0.0
+
+
 def test_exactly_the_braking_distance_is_enough_even_far_along() -> None:
     law = retime(line(3e6), LIMITS, start=3e6 - 2.0, start_speed=2.0)
     assert law.duration == pytest.approx(2.0)

@@ -24,6 +24,9 @@ from viaspline.trajectory.trajectory import Trajectory
 
 Curve = Cubic | Evaluable
 
+SLIP = 1e-9
+"""By this part of a metre and its length the end of a path may be off: lengths are sums."""
+
 
 def retime(
     path: Curve,
@@ -114,6 +117,8 @@ def retime(
         limited_path, stations = checked_lap(limited_path, start), once_a_lap(stations, length)
     stops = stops_from(stations, start, length)
     if length - start <= 0.0:
+        if start_speed**2 > 2.0 * limits.brake * SLIP * (1.0 + length):
+            raise _no_room(length, start, start_speed, limits)
         return Trajectory.through(
             np.full(2, length), np.zeros(2), max_accel=crawl(limits), stations=stops,
             start_time=start_time,
@@ -134,11 +139,7 @@ def retime(
     else:
         profile = limited_path.profile(stage)
     if profile.missed == profile.missed:
-        raise GeometryError(
-            f"the robot can't stop at {profile.missed:g} m: from {start_speed:g} m/s at "
-            f"{start:g} m it needs {start_speed**2 / (2 * limits.brake):g} m; start slower or "
-            "stop later"
-        )
+        raise _no_room(float(profile.missed), start, start_speed, limits)
     if limits.max_jerk is not None:
         return smooth_law(
             limited_path, limits, stage, profile, stops, start_time, float(start_accel), replaces
@@ -150,6 +151,14 @@ def retime(
         stations=stops,
         start_time=start_time,
         over_limit_until=profile.over if profile.over > start else None,
+    )
+
+
+def _no_room(stop: float, start: float, speed: float, limits: Limits) -> GeometryError:
+    """What is said of a robot that is too fast to stop somewhere [m], [m/s]."""
+    return GeometryError(
+        f"the robot can't stop at {stop:g} m: from {speed:g} m/s at {start:g} m it needs "
+        f"{speed**2 / (2 * limits.brake):g} m; start slower or stop later"
     )
 
 
@@ -196,7 +205,7 @@ def _check(
 
 def stops_from(stations: Sequence[Station], start: float, length: float) -> tuple[Station, ...]:
     """The stops from a distance on [m], in order and on the path."""
-    slip = 1e-9 * (1.0 + length)
+    slip = SLIP * (1.0 + length)
     for station in stations:
         if not (station.distance <= length + slip and 0.0 <= station.dwell < np.inf):
             raise GeometryError(
