@@ -9,6 +9,7 @@ import pytest
 
 import viaspline as vs
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.methods.at_radii import AtRadii
 from viaspline.planning.methods.hybrid_astar_search import HybridAStar
 from viaspline.planning.methods.joint_headings import JointHeadings
@@ -18,8 +19,10 @@ from viaspline.planning.methods.other_sides import OtherSides
 from viaspline.planning.methods.spline_as_is import SplineAsItIs
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
 from viaspline.planning.plan_path import lay_path
+from viaspline.planning.problem.method import Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
+from viaspline.planning.routing.route_problem import NO_BARRIERS
 
 LOOP = ([0, 0], [10, 0], [10.5, 1.5], [9, 2], [30, 20])  # nearer than the turning circle
 ROOM = [[[-3, -9], [30, -9], [30, -1.5], [-3, -1.5]], [[-3, 1.5], [30, 1.5], [30, 9], [-3, 9]],
@@ -90,3 +93,13 @@ def test_the_other_sides_are_asked_for_what_is_shorter_and_never_lose() -> None:
     plain = lay((TurnsOnShortest(), AtRadii((HybridAStar(),))), *route, radius=4.0, known=known)
     wider = lay((OtherSides((TurnsOnShortest(),)),), *route, radius=4.0, known=known)
     assert wider.length <= plain.length + 1e-9
+
+
+def test_turns_are_given_up_where_a_spline_keeps_sides_on_which_no_route_is_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Sides of what was led round in the other legs may bind a leg that its spline passes."""
+    refused = (Refusal("no free cells of a lattice lead there"), NO_BARRIERS)
+    monkeypatch.setattr(LegSearch, "shortest_allowed", lambda *_: refused)
+    with pytest.raises(vs.GaveUpError):
+        lay([TurnsOnShortest()], [0, 0], [20, 0], [20, 20])

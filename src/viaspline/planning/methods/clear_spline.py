@@ -12,7 +12,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.routing.narrow_gaps import narrow_places
 from viaspline.kernels.world.corner_fans import X, Y
@@ -22,18 +21,13 @@ from viaspline.planning.alternatives.groups import GroupsInTheWay, groups_met
 from viaspline.planning.alternatives.islands import IslandsInTheWay
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline
 from viaspline.planning.alternatives.passed_leg import PassedLeg
+from viaspline.planning.alternatives.unrouted_leg import unrouted
 from viaspline.planning.checking.conflicts import CLEAR, too_close
-from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
+from viaspline.planning.problem.method import Found, GaveUp, Outcome
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence, lay
 from viaspline.planning.routing.asked_sides import AskedSides
-from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
-from viaspline.planning.routing.leg_refusals import (
-    explain_blocked_leg,
-    explain_tight_leg,
-    explain_unfinished_leg,
-    is_blocked,
-)
+from viaspline.planning.routing.leg_refusals import explain_tight_leg
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.via_refusals import refuse_blocked_vias
@@ -126,7 +120,7 @@ class ClearSpline:
         met = () if is_dense else groups_met(leg, problem.groups, active)
         outcome, barriers = self._fitted(leg, active)
         if not isinstance(outcome, Found):
-            raise _no_leg(leg, outcome, barriers)
+            raise unrouted(leg, outcome, barriers)
         leg = replace(leg, sides=leg.sides.binding_if_met(active))
         if is_dense:
             return PassedLeg(IslandsInTheWay(leg), outcome.value, is_weighed=False), leg.sides
@@ -171,15 +165,6 @@ def _along_fatter(leg: LegSearch, active: Flags, closed: Floats) -> Spline | Non
     fatter = replace(router, required=router.required + CURVE_SLACK_M)
     outcome, _ = replace(leg, router=fatter).shortest_allowed(active, closed)
     return leg.curve(outcome.value, active)
-
-
-def _no_leg(leg: LegSearch, outcome: Refusal | GaveUp, barriers: Floats) -> PlanningError:
-    """The error of a leg for which nothing was found."""
-    via = leg.sequence.ends(leg.index)[1].name
-    asked = (leg.sequence, leg.index, leg.world, leg.requirements, barriers)
-    if isinstance(outcome, Refusal) or is_blocked(*asked[:4]):
-        return BlockedLegError(via, lambda: explain_blocked_leg(*asked))
-    return UnfinishedLegError(via, lambda: explain_unfinished_leg(*asked, outcome), outcome.tried)
 
 
 def _detours(sequence: ViaSequence) -> list[int]:

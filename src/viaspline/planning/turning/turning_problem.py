@@ -17,8 +17,10 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.cleared_spline import ClearedSpline
 from viaspline.planning.alternatives.homotopy_classes import TautRow
 from viaspline.planning.alternatives.leg_search import LegSearch
+from viaspline.planning.alternatives.unrouted_leg import unrouted
 from viaspline.planning.checking.conflicts import is_clear
 from viaspline.planning.checking.driving_time import driving_time, leg_time
+from viaspline.planning.problem.method import Found, GaveUp, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence
@@ -240,7 +242,15 @@ class TurningProblem(PathProblem):
 
 
 def _shortest(leg: LegSearch) -> TautPath:
+    """The shortest taut path of a leg.
+
+    Raises:
+        GaveUpError: When there is none on the sides that bind it by now. Its spline keeps to them,
+            so that there is no way at all isn't known.
+    """
     active = on_the_line(leg.world, *leg.ends, leg.requirements.required)
-    taut_path = leg.shortest_allowed(active)[0].value
-    assert taut_path is not None  # the spline was led along one
-    return taut_path
+    outcome, barriers = leg.shortest_allowed(active)
+    if isinstance(outcome, Found):
+        return outcome.value
+    stuck = GaveUp((outcome.reason,)) if isinstance(outcome, Refusal) else outcome
+    raise unrouted(leg, stuck, barriers)
