@@ -208,10 +208,9 @@ class Navigator:
         distance, speed, _ = self._state.schedule.trajectory.state_at(number_from("time", time))
         u = self.path.parameter(float(distance))
         place = np.asarray(self.path.evaluate(u))
-        heading = float(self.path.heading(u))
-        if speed == 0.0:
-            heading = heading_onward(self.path, float(distance))
-        return RobotState(tuple(place.tolist()), heading, float(speed))
+        stands = speed == 0.0
+        heading = heading_onward(self.path, float(distance)) if stands else self.path.heading(u)
+        return RobotState(tuple(place.tolist()), float(heading), float(speed))
 
     @property
     def controller(self) -> Controller | None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.tracking.control_law import turn_law
+from viaspline.kernels.tracking.control_law import HEADING_DEADBAND_RAD, turn_law
 from viaspline.kernels.tracking.drive_model import yaw_rate_of
 from viaspline.machine.turns_on_spot import heading_onward
 from viaspline.mission.drives.drive import Drive
@@ -29,10 +29,7 @@ MIN_CONVERGENCE_M, CONVERGENCE_TIME_S = 1.0, 1.0
 in this time [s]."""
 
 SPOT_GAIN = 4.0
-"""A robot that stands and looks another way than it should turns so fast for its error [1/s],"""
-
-SPOT_DEADBAND_RAD = 0.004
-"""unless that is no larger [rad]."""
+"""A robot that stands and looks another way than it should turns so fast for its error [1/s]."""
 
 
 class _Motion(NamedTuple):
@@ -75,9 +72,8 @@ def command_for(
     else:
         if beside:
             curvature = _led_back(curvature, measured, position, heading)
-        motion = _Motion((speed, 0.0), _yaw_rate(robot, speed * curvature), {})
-        if stopped:
-            motion = _Motion((0.0, 0.0), _turning_to(heading, measured, robot), {})
+        wanted = _turning_to(heading, measured, robot) if stopped else speed * curvature
+        motion = _Motion((speed, 0.0), _yaw_rate(robot, wanted), {})
     return Command(
         speed=speed,
         acceleration=acceleration,
@@ -102,14 +98,15 @@ def _driven(controller: Controller, drive: Drive | None) -> _Motion:
 
 
 def _turning_to(heading: float, state: RobotState, robot: RobotSpec) -> float:
-    """Yaw rate of a robot without a drive that stands [rad/s]; 0 if it isn't said how fast it may.
+    """The yaw rate that a robot without a drive wants where it stands [rad/s].
 
-    One without a limit of its yaw rate turns in no time, so its turns are no part of its time law.
+    It is 0 if it isn't said how fast it may turn: such a robot turns in no time, and its turns are
+    no part of its time law.
     """
     error = math.remainder(heading - state.heading, math.tau)
-    if robot.max_yaw_rate_degps is None or abs(error) <= SPOT_DEADBAND_RAD:
+    if robot.max_yaw_rate_degps is None or abs(error) <= HEADING_DEADBAND_RAD:
         return 0.0
-    return _yaw_rate(robot, SPOT_GAIN * error)
+    return SPOT_GAIN * error
 
 
 def _yaw_rate(robot: RobotSpec, wanted: float) -> float:

@@ -112,6 +112,17 @@ def _count_met(spans: Floats, first: int, last: int, discs: Floats) -> int:
 
 
 @inner
+def _tried(
+    path: MarkedPath, count: int, k: int, w: float, wide: float, needed: float, bend: float,
+    trial: MarkedPath,
+) -> tuple[int, int, int]:  # fmt: skip
+    """Move a copy of a path aside as far as is said, for a disc that needs so much [m]."""
+    copy_path(path.spans, path.marks, count, trial.spans, trial.marks)
+    shortest = math.sqrt(12.0 * abs(wide) * needed)
+    return moved_aside(trial.spans, trial.marks, count, k, w, wide, shortest, bend)
+
+
+@inner
 def _wide_enough(
     path: MarkedPath, count: int, k: int, w: float, wide: float, disc: Floats, bend: float,
     trial: MarkedPath,
@@ -133,11 +144,7 @@ def _wide_enough(
         nothing is moved where there is no room.
     """
     for _ in range(MAX_WIDENINGS):
-        copy_path(path.spans, path.marks, count, trial.spans, trial.marks)
-        shortest = math.sqrt(12.0 * abs(wide) * disc[2])
-        now, first, last = moved_aside(
-            trial.spans, trial.marks, count, k, w, wide, shortest, bend
-        )  # fmt: skip
+        now, first, last = _tried(path, count, k, w, wide, disc[2], bend, trial)
         if first == last:
             break
         kept = _least_apart(trial.spans, first, last, disc)
@@ -184,11 +191,7 @@ def _past_all(
     """
     outward = math.copysign(1.0, wide)
     for _ in range(MAX_WIDENINGS):
-        copy_path(path.spans, path.marks, count, trial.spans, trial.marks)
-        shortest = math.sqrt(12.0 * abs(wide) * discs[which, 2])
-        now, first, last = moved_aside(
-            trial.spans, trial.marks, count, k, w, wide, shortest, bend
-        )  # fmt: skip
+        now, first, last = _tried(path, count, k, w, wide, discs[which, 2], bend, trial)
         if first == last:
             break
         other, at_k, at_w, apart = _deepest_met(trial.spans, first, last, discs)
