@@ -1,6 +1,7 @@
 """For all tests: a hypothesis profile, an independent oracle for distances, a mission to spoil."""
 
 import copy
+import gc
 import os
 import warnings
 from collections.abc import Callable, Sequence
@@ -36,8 +37,13 @@ LOADED_TO_COLLECT = pytest.StashKey[frozenset[LoadedKernel]]()
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:
-    """Note what the tests have computed by then, where they are imported."""
+    """Note what the tests have computed by then, where they are imported.
+
+    What was made by then stays to the end: the garbage collector needn't look through it again.
+    """
     session.config.stash[LOADED_TO_COLLECT] = loaded_kernels()
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")
