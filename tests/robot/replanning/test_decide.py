@@ -161,3 +161,26 @@ def test_an_unseen_obstacle_at_the_start_keeps_the_robot_there(
     assert run.path.length == 0.0
     assert run.reason is not None
     assert "stands 0.30 m from 'near'" in run.reason
+
+
+def test_a_way_round_that_what_moves_leaves_no_law_for_is_waited_for() -> None:
+    """It stood for good, clear of everything: "farther beside its path than the 0.000 m ..."."""
+    cart = {"capsule": {"from": [0.135, -0.224], "to": [-0.135, 0.224], "radius": 0.065},
+            "motion": {"keyframes": [[0, 1.05, 4.62], [19, 3.18, 17.11], [50.12, 16.02, 1.47]],
+                       "after": "bounce"}}  # fmt: skip
+    wall = {"name": "wall", "capsule": {"from": [3.826, 11.449], "to": [3.354, 12.591],
+                                        "radius": 0.155}}  # fmt: skip
+    slow = {"max_speed_mps": 0.523, "polygon": [[5.08, 2.59], [9.03, 2.59], [9.03, 6.81],
+                                                [5.08, 6.81]]}  # fmt: skip
+    mission = Mission.model_validate({
+        "robot": {"radius_m": 0.4, "max_speed_mps": 1.681, "max_accel_mps2": 0.982,
+                  "max_brake_mps2": 1.401, "sensor": {"range_m": 6.369}},
+        "spline": {"tangents": "cardinal", "tension": 0.219},
+        "world": {"known": [cart], "unseen": [wall], "speed_zones": [slow]},
+        "route": {"start": [8.15, 12.38], "via": [[5.67, 2.45], [1.03, 13.89]],
+                  "goal": {"at": [13.39, 9.57], "heading_deg": 78.976}},
+    })  # fmt: skip
+    run = simulate(mission)
+    assert run.reached, run.reason
+    assert (run.replans[0].obstacles, run.replans[0].mode) == (("wall",), "from_rest")
+    assert run.certificate.holds

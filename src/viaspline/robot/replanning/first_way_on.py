@@ -28,7 +28,7 @@ from viaspline.robot.navigation.pending_search import (
 )
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.replanning.hold_to_path import CREEP_MPS
-from viaspline.robot.replanning.path_candidate import PathCandidate, timed
+from viaspline.robot.replanning.path_candidate import PathCandidate, awaited, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Mode
 from viaspline.world.world import World
@@ -97,6 +97,8 @@ def first_candidate(
                 partial(_laid, context, stage[0], leave, world, skip),
             )
             candidate = timed(context, mode, solution)
+            if candidate is None and stage == LAST_STAGE:
+                candidate = awaited(context, solution)
         except SpentBudgetError as error:
             raise UnfinishedSearchError(error, _next(stage, before, context)) from error
         except BlockedLegError:
@@ -187,6 +189,13 @@ def _comes_on_nearby(context: ReplanContext) -> bool:
 
 def _not_followed(context: ReplanContext) -> GaveUpError:
     """Why a robot that stands doesn't go on, though a path would lead on."""
+    if context.task.model is None:
+        return GaveUpError(
+            "no time law was found on the way on by which the robot can stop within what it knows",
+            where=context.here,
+            remedy="give it a lower max_speed_mps, or more max_brake_mps2",
+            tried=("from rest, on a path round all that stands",),
+        )
     kept = context.task.requirements.tracking_error
     return GaveUpError(
         f"the robot would get farther beside its path than the {kept:.3f} m that are kept for that",

@@ -13,13 +13,14 @@ from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.work_budget import JERK_LAW_S, LAW_AMONG_S, TIME_LAW_S
 from viaspline.robot.navigation.law_horizon import reach_of_all
 from viaspline.robot.navigation.progress import SAME_PLACE_M
-from viaspline.robot.navigation.reschedule import trajectory_within_sight
+from viaspline.robot.navigation.reschedule import braking_at_once, trajectory_within_sight
 from viaspline.robot.navigation.schedule import ReducedClearance
 from viaspline.robot.replanning.hold_to_path import slow_enough
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Mode
 from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.moving_obstacles import MovingObstacles
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,7 @@ class PathCandidate:
         trajectory: The time law along it, from here and now on.
         slow: Where the robot has to be slower than its limits, to stay near enough to the path.
         reduced: Where it keeps less clearance than it should, if it does.
+        waits: Whether the robot stands where it begins, until what moves leaves it a law.
     """
 
     mode: Mode
@@ -41,6 +43,7 @@ class PathCandidate:
     trajectory: Trajectory
     slow: tuple[Slow, ...]
     reduced: ReducedClearance | None
+    waits: bool = False
 
 
 def timed(
@@ -74,6 +77,29 @@ def timed(
     if slow is None:
         return None
     return PathCandidate(mode, solution, corners, trajectory, slow, context.schedule.reduced)
+
+
+def awaited(context: ReplanContext, solution: Solution) -> PathCandidate | None:
+    """A path from rest before which the robot stands for what moves, which leaves it no law yet.
+
+    Args:
+        context: The robot under way.
+        solution: The path; it isn't met by what stands.
+
+    Returns:
+        None if nothing moves, or if the robot couldn't go over to it then either.
+
+    Raises:
+        SpentBudgetError: When there is no time left for that.
+    """
+    if not len(context.knowledge.moving):
+        return None
+    alone = replace(context, knowledge=replace(context.knowledge, moving=MovingObstacles()))
+    candidate = timed(alone, "from_rest", solution)
+    if candidate is None:
+        return None
+    stop = braking_at_once(context.task, context.progress, context.schedule, context.speed)
+    return replace(candidate, trajectory=stop, waits=True)
 
 
 def first_law(

@@ -51,6 +51,7 @@ def take_over(
             turns=candidate.turns,
             slow=candidate.slow,
             reduced=candidate.reduced,
+            gives_way=old.gives_way or candidate.waits,
             sighted_until=min(old.sighted_until, candidate.solution.changed_from),
             probed_until=0.0,
             laps=None if old.laps is None else old.laps.without(skip),
