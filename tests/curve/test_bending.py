@@ -43,6 +43,16 @@ def test_the_bound_is_a_millionth_above_the_largest_root(seed: int) -> None:
         assert bound <= largest * (1 + 2e-6)
 
 
+@given(seeds, st.floats(0.01, 10.0))
+def test_a_bound_that_needs_no_more_is_told_on_which_side_the_curve_is(
+    seed: int, least: float
+) -> None:
+    points = np.random.default_rng(seed).uniform(-50, 50, (5, 2))
+    curve = CardinalSpline(points, slack=0.2)
+    bound, asked = curvature_bound(curve)[0], curvature_bound(curve, least)[0]
+    assert asked == (least if bound < least else bound)
+
+
 def test_a_needle_of_curvature_is_not_missed() -> None:
     needle = PiecewiseCubic([[[0, 0], [10, 1e-3], [-9, 1e-3], [1, 0]]])
     bound, at = curvature_bound(needle)

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import viaspline as vs
+from viaspline.planning.alternatives.kept_account import KeptAccount
+from viaspline.planning.alternatives.record import Account
 
 SQUARE = {"start": [0, 0], "via": [[40, 0], [40, 30], [0, 30]], "closed": True}
 ROCK = {"name": "rock", "circle": {"center": [2, 5], "radius": 2}}
@@ -35,6 +37,22 @@ def test_a_closed_course_has_no_seam_even_with_a_detour_next_to_it(known: list) 
     end = plan.path.domain[1]
     np.testing.assert_array_equal(plan.path.evaluate(0.0), plan.path.evaluate(end))
     assert plan.path.heading(0.0) == pytest.approx(float(plan.path.heading(end)), abs=1e-9)
+
+
+def test_a_plan_keeps_what_was_searched_only_where_something_was_met() -> None:
+    rock = {"circle": {"center": [25, 0.5], "radius": 4}}
+    free, led = (
+        vs.plan(
+            vs.Mission.model_validate(
+                {"world": {"known": known}, "route": {"start": [0, 0], "goal": [50, 0]}}
+            )
+        )
+        for known in ([], [rock])
+    )
+    assert isinstance(free.account, KeptAccount)
+    assert free.ledger == ()
+    assert isinstance(led.account, Account)
+    assert len(led.ledger) == 1
 
 
 def test_laps_are_the_same_curve_over_and_over() -> None:

@@ -15,7 +15,7 @@ from viaspline.kernels.curve import self_intersection
 SMOOTH_JUMP_RAD = 1e-7  # a tangent that jumps by less is smooth but for rounding [rad]
 
 
-def curvature_bound(curve: PiecewiseCubic) -> tuple[float, float]:
+def curvature_bound(curve: PiecewiseCubic, least: float = 0.0) -> tuple[float, float]:
     """A proven upper bound of the curvature of the whole curve, without its sign.
 
     By branch and bound on Bernstein coefficients, not by samples. Turning circles need it: a
@@ -23,9 +23,11 @@ def curvature_bound(curve: PiecewiseCubic) -> tuple[float, float]:
 
     Args:
         curve: Any piecewise cubic.
+        least: Curvature below which nobody needs to know more, which is sooner known [1/m].
 
     Returns:
-        (bound [1/m], u): no place bends more; at u the curve bends as much, to a millionth.
+        (bound [1/m], u): no place bends more; at u the curve bends as much, to a millionth, unless
+        the bound is ``least``.
         Infinite at a corner, where the tangent jumps by more than rounding, and at a cusp.
 
     Example:
@@ -40,7 +42,7 @@ def curvature_bound(curve: PiecewiseCubic) -> tuple[float, float]:
     sharp = np.flatnonzero(corner_angles(curve) > SMOOTH_JUMP_RAD)
     if sharp.size:
         return math.inf, float(sharp[0])
-    upper, _, w = kernels.curvature_bounds(np.array(curve.spans), 0.0)
+    upper, _, w = kernels.curvature_bounds(np.array(curve.spans), least)
     span = int(np.argmax(upper))
     return float(upper[span]), float(span + w[span])
 

@@ -9,6 +9,7 @@ import numpy as np
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.mission.strip import has_line
+from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
@@ -30,7 +31,8 @@ def find_drive(mission: Mission, world: World, requirements: Requirements) -> So
         found = find_line(mission, world, requirements)
     else:
         found = find_roomy_path(via_sequence_of(mission), world, requirements)
-    return replace(found, path=repeated(found.path, mission.route.laps))
+    account = found.account.kept if isinstance(found.account, Account) else found.account
+    return replace(found, path=repeated(found.path, mission.route.laps), account=account)
 
 
 def repeated(path: Path, laps: int) -> Path:

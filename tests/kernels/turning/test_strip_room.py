@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.kernels.turning.strip_room import strip_room
@@ -31,3 +33,25 @@ def test_a_place_may_go_as_far_as_it_keeps_clear(off: float, aside: float) -> No
     else:
         assert high[1:3] == pytest.approx(room, rel=1e-3)
         assert np.isinf(low).all()
+
+
+@given(
+    st.lists(st.tuples(st.floats(-40, 50), st.floats(-40, 40)), max_size=3), st.floats(18.0, 60.0)
+)
+def test_where_nothing_is_near_it_is_told_what_looking_at_every_place_tells(
+    middles: list[tuple[float, float]], out: float
+) -> None:
+    """With a fence every place is looked at; it stands farther off than any looks."""
+    rocks = [vs.Obstacle(circle={"center": at, "radius": 1.0}) for at in middles]
+    bounds = (-out, -out, 10.0 + out, out)
+    far = [(-500.0, -500.0), (500.0, -500.0), (500.0, 500.0), (-500.0, 500.0)]
+    places = np.array([[0.0, 0.0], [4.0, 0.5], [6.0, 0.5], [10.0, 0.0]])
+    normals = np.tile([0.0, 1.0], (4, 1))
+    spans = strip_spans(places, normals, np.full((2, 2), np.nan), False)
+    found = []
+    for fences in ([], [far]):
+        world = vs.World(rocks, bounds=bounds, fences=fences)
+        told = [np.full(4, -np.inf), np.full(4, np.inf), np.empty(4), np.empty(4)]
+        strip_room(world.packed, places, normals, spans, np.zeros(4), np.ones(4), *told)
+        found.append(np.array(told))
+    np.testing.assert_array_equal(*found)

@@ -105,6 +105,9 @@ def _more_in_the_way(
 ) -> Sequence[int]:
     """Places that a path is to be laid round as well: a few, as each of them takes its time.
 
+    Those beside a place for which there was no room are among them at once: led round that place
+    alone, a path would come too near to them, and be laid once more.
+
     Args:
         rests: Of all robots.
         reach: How far the robot keeps others away on its part [m].
@@ -112,15 +115,13 @@ def _more_in_the_way(
         others: Those for which there was no room to step aside.
         seen: All that the path comes near to.
     """
-    if set(others) - round_them:
-        return others
     at, beside = rests.rows[seen], np.zeros(len(seen), np.bool_)
     for k in others:
         x, y, its = rests.rows[k]
         gap = np.hypot(at[:, 0] - x, at[:, 1] - y) - at[:, 2] - its
         beside |= gap < 2.0 * (reach + KEPT_MORE_M)  # no room between the two
-    near: list[int] = seen[beside].tolist()
-    return near if set(near) - round_them else seen.tolist()
+    near: set[int] = {*others, *seen[beside].tolist()}
+    return sorted(near) if near - round_them else seen.tolist()
 
 
 def _eased(

@@ -117,10 +117,9 @@ class RestingPlaces:
         Returns:
             Indices, increasing, (k,).
         """
-        found = self._in_box(spans, reach)
-        found = found[[index not in but for index in found.tolist()]]
         curve = spans if spans.flags.writeable else spans.copy()  # numba compiles for one kind
-        return found[discs_met(curve, self.rows[found], reach)]
+        found = np.flatnonzero(discs_met(curve, self.rows, reach))
+        return found[[index not in but for index in found.tolist()]]
 
     def at(self, points: Floats, reach: float) -> frozenset[int]:
         """Those whose robots a robot comes too near to at one of some points [m], (k, 2)."""
@@ -142,27 +141,6 @@ class RestingPlaces:
     def of_robot(self, name: str) -> frozenset[int]:
         """Indices of the places of one robot."""
         return self._owners.get(name, frozenset())
-
-    def _in_box(self, spans: Floats, reach: float) -> Ints:
-        """Those that the box round a curve comes near to, increasing."""
-        if not self.places:
-            return np.empty(0, np.int64)
-        low, high = spans[..., :2].min(axis=(0, 1)), spans[..., :2].max(axis=(0, 1))
-        widest = reach + self._widest
-        ends = np.searchsorted(self._xs, (low[0] - widest, high[0] + widest))
-        found: Ints = np.sort(self._by_x[ends[0] : ends[1]])
-        y = self.rows[found, 1]
-        inside: Ints = found[(y >= low[1] - widest) & (y <= high[1] + widest)]
-        return inside
-
-    @cached_property
-    def _by_x(self) -> Ints:
-        return np.argsort(self.rows[:, 0], kind="stable")
-
-    @cached_property
-    def _xs(self) -> Floats:
-        ordered: Floats = self.rows[self._by_x, 0]
-        return ordered
 
 
 def all_rests(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 
 MAX_HALVINGS = 40
@@ -53,6 +53,24 @@ def _is_met(stack: Floats) -> bool:
     return False
 
 
+@inner
+def _in_box(spans: Floats, discs: Floats, grown: float) -> Ints:
+    """The discs that the box round a curve comes near to, (k,)."""
+    low_x, high_x, low_y, high_y = np.inf, -np.inf, np.inf, -np.inf
+    for k in range(spans.shape[0]):
+        for i in range(4):
+            low_x, high_x = min(low_x, spans[k, i, 0]), max(high_x, spans[k, i, 0])
+            low_y, high_y = min(low_y, spans[k, i, 1]), max(high_y, spans[k, i, 1])
+    found, count = np.empty(discs.shape[0], np.int64), 0
+    for i in range(discs.shape[0]):
+        x, y, radius = discs[i, 0], discs[i, 1], discs[i, 2] + grown
+        beside = x < low_x - radius or x > high_x + radius
+        if not (beside or y < low_y - radius or y > high_y + radius):
+            found[count] = i
+            count += 1
+    return found[:count]
+
+
 @kernel
 def discs_met(spans: Floats, discs: Floats, grown: float) -> Flags:
     """Which discs a curve comes into.
@@ -71,6 +89,7 @@ def discs_met(spans: Floats, discs: Floats, grown: float) -> Flags:
         [True, False]
     """
     met = np.zeros(discs.shape[0], np.bool_)
+    in_box = _in_box(spans, discs, grown)
     stack = np.empty((MAX_HALVINGS + 1, 7))
     for k in range(spans.shape[0]):
         span = spans[k]
@@ -79,7 +98,7 @@ def discs_met(spans: Floats, discs: Floats, grown: float) -> Flags:
         for i in range(1, 4):
             low_x, high_x = min(low_x, span[i, 0]), max(high_x, span[i, 0])
             low_y, high_y = min(low_y, span[i, 1]), max(high_y, span[i, 1])
-        for i in range(discs.shape[0]):
+        for i in in_box:
             x, y, radius = discs[i, 0], discs[i, 1], discs[i, 2] + grown
             beside = x < low_x - radius or x > high_x + radius
             if met[i] or beside or y < low_y - radius or y > high_y + radius:

@@ -37,6 +37,15 @@ def apart_from(span: Floats, w: float, x: float, y: float) -> float:
     return math.hypot(span_coordinate(span, w, 0) - x, span_coordinate(span, w, 1) - y)
 
 
+@inlined
+def _longest_side(span: Floats) -> float:
+    """The longest side of a span's polygon [m]: a third of what it may go on by its parameter."""
+    longest = 0.0
+    for k in range(3):
+        longest = max(longest, math.hypot(span[k + 1, 0] - span[k, 0], span[k + 1, 1] - span[k, 1]))
+    return longest
+
+
 @inner
 def nearest_on_span(span: Floats, x: float, y: float, limit: float) -> tuple[float, float]:
     """Distance of a place from a span and where on it; infinite where it is beyond a limit."""
@@ -53,6 +62,8 @@ def nearest_on_span(span: Floats, x: float, y: float, limit: float) -> tuple[flo
         apart = apart_from(span, k / looks, x, y)
         if apart < best:
             best, at = apart, k / looks
+    if best - 0.5 * _longest_side(span) * 3.0 / looks > limit:
+        return math.inf, 0.0
     low, high = max(at - 1.0 / looks, 0.0), min(at + 1.0 / looks, 1.0)
     for _ in range(24):
         third = (high - low) / 3.0

@@ -82,6 +82,46 @@ def _least_about(
     return least, at
 
 
+@inner
+def _is_open(world: PackedWorld, places: Floats, beside: Floats, kept: Floats) -> bool:
+    """Whether nothing stands so near to any place of a strip that it would be looked for.
+
+    Args:
+        world: What stands there.
+        places: See ``strip_room``,
+        beside: the same,
+        kept: and the same.
+    """
+    if world.fence_edges.size > 1:
+        return False
+    low_x, low_y = places[0]
+    high_x, high_y = places[0]
+    longest, widest, off = 0.0, 0.0, 0.0
+    for j in range(places.shape[0]):
+        x, y = places[j]
+        low_x, high_x, low_y, high_y = min(low_x, x), max(high_x, x), min(low_y, y), max(high_y, y)
+        widest, off = max(widest, kept[j]), max(off, abs(beside[j]))
+        if j > 0:
+            longest = max(longest, math.hypot(x - places[j - 1, 0], y - places[j - 1, 1]))
+    far = 0.5 * longest + REACH * widest + off
+    low_x, low_y, high_x, high_y = low_x - far, low_y - far, high_x + far, high_y + far
+    if world.bounds.shape[0] > 0 and not (
+        world.bounds[0, 0] <= low_x and world.bounds[0, 1] <= low_y
+        and world.bounds[0, 2] >= high_x and world.bounds[0, 3] >= high_y
+    ):  # fmt: skip
+        return False
+    node = 0
+    while node < world.leaf.size:
+        box = world.boxes[node]
+        if box[0] > high_x or box[2] < low_x or box[1] > high_y or box[3] < low_y:
+            node = world.skip[node]
+        elif world.leaf[node] >= 0:
+            return False
+        else:
+            node += 1
+    return True
+
+
 @kernel
 def strip_room(
     world: PackedWorld, places: Floats, normals: Floats, spans: Floats, beside: Floats,
@@ -105,7 +145,7 @@ def strip_room(
         rooms: Distance beyond what is kept, about each [m], (n,); filled.
     """
     count = places.shape[0]
-    before = 0.0
+    before, is_open = 0.0, _is_open(world, places, beside, kept)
     for j in range(count):
         after = 0.0
         if j + 1 < count:
@@ -113,6 +153,11 @@ def strip_room(
                 places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
             )  # fmt: skip
         half = 0.5 * max(before, after)
+        if is_open:
+            rooms[j] = half + REACH * kept[j] - kept[j]
+            reach[j] = max(half + REACH * kept[j] - half, LEAST_REACH * kept[j])
+            before = after
+            continue
         nx, ny = normals[j]
         off = (beside[j] * nx, beside[j] * ny)
         gap, _ = nearest(

@@ -13,6 +13,7 @@ import numpy as np
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.alternatives.comparison import Comparison
+from viaspline.planning.alternatives.kept_account import KeptAccount
 from viaspline.planning.alternatives.leg_search import Curve
 from viaspline.planning.alternatives.passed_leg import PassedLeg
 from viaspline.planning.checking.conflicts import proven
@@ -49,6 +50,11 @@ class Account:
     driven: Callable[[Comparison, SplinePath], Comparison] | None = None
     measured_in: World | None = None
     preferred: PreferredClearance | None = None
+
+    @property
+    def kept(self) -> Account | KeptAccount:
+        """What a plan keeps of it: where nothing was met, not what the search went through."""
+        return self if self.passed else KeptAccount((), self.preferred)
 
     @cached_property
     def ledger(self) -> tuple[LedgerEntry, ...]:

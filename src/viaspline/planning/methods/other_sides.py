@@ -42,6 +42,8 @@ class OtherSides:
         outcome = first_settled(self.methods, problem, bound)
         if not isinstance(outcome, Found):
             return outcome
+        if not problem.cleared.passed:  # nothing was in the way: there are no other sides
+            return Found(outcome.value, problem.cost(outcome.value))
 
         known = [(outcome.cost, outcome.value)]
 

@@ -142,7 +142,7 @@ class Requirements(ComparedByValue):
         """Free space that is kept, at least what is more than a touch [m]."""
         return max(self.kept, LEAST_KEPT_M)
 
-    @property
+    @cached_property
     def required(self) -> float:
         """Distance that the path itself keeps from every obstacle [m]."""
         return max(self.radius + self.kept, LEAST_KEPT_M)

@@ -96,6 +96,8 @@ class AskedSides:
 
     def gone_round(self, places: Floats) -> Ints:
         """The obstacles that a polyline (m, 2) [m] goes round on the wrong side, (j,)."""
+        if not self.indices.size:
+            return self.indices
         return self.indices[self.binding & _crossed_by(places, self.barriers)]
 
     def binding_if_met(self, active: Flags) -> AskedSides:
@@ -122,6 +124,8 @@ class AskedSides:
 
     def overlooked(self, spans: Floats, world: World, required: float) -> Ints:
         """Obstacles that don't bind, but that a curve comes near to on the wrong side, (j,)."""
+        if not self.indices.size:
+            return self.indices
         crossed = self.indices[crossings(spans, self.barriers).any(axis=0)]
         return self.near(crossed, spans, world, required)
 

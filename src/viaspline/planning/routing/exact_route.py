@@ -64,7 +64,9 @@ class ExactRoute:
 def _is_surely_shortest(problem: RouteProblem) -> bool:
     """Whether circumscribed corners close no gap that the arcs themselves leave open."""
     space, active = problem.space, problem.active
-    if space.world.enclosures and active.any():
+    if not active.any():
+        return True
+    if space.world.enclosures:
         return False
     met = (space.world.obstacles[i].ring for i in np.flatnonzero(active))
     radius = max((ring.radius for ring in met if ring is not None), default=0.0)

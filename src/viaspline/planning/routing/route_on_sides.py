@@ -13,6 +13,7 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.problem.method import Outcome
 from viaspline.planning.routing.asked_sides import AskedSides
+from viaspline.planning.routing.route_problem import NO_BARRIERS
 from viaspline.planning.routing.taut_path import TautPath
 
 
@@ -38,6 +39,10 @@ def route_on_sides(
     Returns:
         What came of it, and the barriers that forbid sides, (f, 4).
     """
+    if not sides.indices.size:
+        outcome, met = find(closed, active)
+        active |= met
+        return outcome, NO_BARRIERS
     barriers = sides.closed_among(active)
     while True:
         outcome, met = find(np.vstack((closed, barriers)), active)

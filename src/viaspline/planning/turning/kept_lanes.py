@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.problem.work_budget import LOCAL_LEG_S
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import LegBends, RowBends, bends_of_legs
 from viaspline.planning.turning.lane import Lane
@@ -83,11 +84,12 @@ class KeptLanes:
         if reach > LANE_REACHES[0]:
             return self._kept_to_lanes(taut_paths, reach)
         known = zip(self.problem.shortest_row.taut_paths, self._shortest_local, strict=True)
-        rows = zip(self._leg_lanes, taut_paths, known, strict=True)
         turns = self._lane_turns(reach)
         return tuple(
-            bends if taut_path is shortest else local_bends(lane, taut_path, turns)
-            for lane, taut_path, (shortest, bends) in rows
+            bends if taut_path is shortest else self._local(leg, taut_path, turns)
+            for leg, (taut_path, (shortest, bends)) in enumerate(
+                zip(taut_paths, known, strict=True)
+            )
         )
 
     @cached_property
@@ -102,8 +104,7 @@ class KeptLanes:
         self, taut_paths: Sequence[TautPath], reach: float
     ) -> tuple[LegBends | None, ...]:
         turns = self._lane_turns(reach)
-        pairs = zip(self._leg_lanes, taut_paths, strict=True)
-        kept = [local_bends(lane, taut_path, turns) for lane, taut_path in pairs]
+        kept = [self._local(leg, taut_path, turns) for leg, taut_path in enumerate(taut_paths)]
         needs = self.problem.requirements
         if needs.detours == "local" or not needs.objective.is_time:
             return tuple(kept)
@@ -111,6 +112,14 @@ class KeptLanes:
             None if bends is None or self._is_dear(leg, bends, LegBends.along(taut_path)) else bends
             for leg, (bends, taut_path) in enumerate(zip(kept, taut_paths, strict=True))
         )
+
+    def _local(self, leg: int, taut_path: TautPath, turns: LaneTurns) -> LegBends | None:
+        """The bends of a leg that keeps to its line as long as it can; see ``local_bends``."""
+        needs = self.problem.requirements
+        if needs.detours is None and taut_path.is_direct and not self.problem.sequence.parts_of:
+            needs.spend(LOCAL_LEG_S)
+            return None  # it is on its line all the way: there is nothing to go back from
+        return local_bends(self._leg_lanes[leg], taut_path, turns)
 
     def _is_dear(self, leg: int, kept: LegBends, short: LegBends) -> bool:
         """Whether it takes much longer to keep to a leg's line than to take the shortest way."""

@@ -33,6 +33,7 @@ from viaspline.planning.turning.turn_path import (
     RAMP,
     NoTurnPath,
     TurnPath,
+    count_of_sides,
     turn_path_on_sides,
     turn_path_round,
     with_sides,
@@ -99,7 +100,7 @@ def turn_path_if_clear(bends: Bends, world: World, requirements: Requirements) -
 
 def _if_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
     """See ``turn_path_if_clear``."""
-    requirements.spend(_turn_path_cost(bends) * sum(1 for _ in with_sides(bends)))
+    requirements.spend(_turn_path_cost(bends) * count_of_sides(bends))
     turn_path = turn_path_round(bends)
     if isinstance(turn_path, NoTurnPath) or not is_clear(world, turn_path.spans, requirements):
         return None

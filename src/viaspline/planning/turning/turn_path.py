@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -90,17 +90,15 @@ def turn_path_round(bends: Bends) -> TurnPath | NoTurnPath:
     Args:
         bends: The row.
     """
-    best: TurnPath | NoTurnPath | None = None
+    best: SettledTurns | NoTurnPath | None = None
+    least = math.inf
     for tried in with_sides(bends):
-        found = turn_path_on_sides(tried)
-        if best is None or (isinstance(found, TurnPath) and _is_longer(best, found)):
-            best = found
+        found = settled_turns(tried)
+        length = math.inf if isinstance(found, NoTurnPath) else _length(found)
+        if best is None or length < least:
+            best, least = found, length
     assert best is not None  # there is always one choice of sides
-    return best
-
-
-def _is_longer(turn_sequence: TurnPath | NoTurnPath, other: TurnPath) -> bool:
-    return isinstance(turn_sequence, NoTurnPath) or turn_sequence.length > other.length
+    return best if isinstance(best, NoTurnPath) else _laid(best, least)
 
 
 def turn_path_on_sides(bends: Bends, ramp: float = RAMP) -> TurnPath | NoTurnPath:
@@ -111,12 +109,20 @@ def turn_path_on_sides(bends: Bends, ramp: float = RAMP) -> TurnPath | NoTurnPat
         ramp: Length of the ramps, in radii.
     """
     found = settled_turns(bends, ramp)
-    if isinstance(found, NoTurnPath):
-        return found
-    rows, at = found.bends.rows, found.lines_and_turns
-    spans, begins = turn_sequence_spans(rows, bends.closed, *at)
-    length = float(turn_sequence_length(rows, bends.closed, *at))
-    return TurnPath(found.bends, found.left, spans, begins, found.turns, length)
+    return found if isinstance(found, NoTurnPath) else _laid(found, _length(found))
+
+
+def _length(settled: SettledTurns) -> float:
+    """[m]."""
+    bends = settled.bends
+    return float(turn_sequence_length(bends.rows, bends.closed, *settled.lines_and_turns))
+
+
+def _laid(settled: SettledTurns, length: float) -> TurnPath:
+    """Lines and turns as a curve that is so long [m]."""
+    bends = settled.bends
+    spans, begins = turn_sequence_spans(bends.rows, bends.closed, *settled.lines_and_turns)
+    return TurnPath(bends, settled.left, spans, begins, settled.turns, length)
 
 
 def settled_turns(bends: Bends, ramp: float = RAMP) -> SettledTurns | NoTurnPath:
@@ -139,21 +145,33 @@ def with_sides(bends: Bends) -> Iterator[Bends]:
     One is the lesser turn, to whichever side it comes to be: where the heading is nearly that of
     its line, that is known only once the turns have settled. The other one goes to the other side.
     """
-    given = [] if bends.closed else [k for k in (0, -1) if math.isfinite(bends.rows[k, HEADING])]
+    given = _given(bends)
     for sides in product(*((0.0, -_lesser_side(bends.rows, k)) for k in given)):
         rows = bends.rows.copy()
         for k, side in zip(given, sides, strict=True):
             rows[k, SIDE] = side
-        yield replace(bends, rows=rows)
+        yield Bends(rows, bends.vias, bends.swings, bends.closed)
+
+
+def count_of_sides(bends: Bends) -> int:
+    """How many choices ``with_sides`` has."""
+    return 1 << len(_given(bends))
+
+
+def _given(bends: Bends) -> list[int]:
+    """The ends at which headings are given, 0 the start and -1 the goal."""
+    if bends.closed:
+        return []
+    return [k for k in (0, -1) if math.isfinite(bends.rows[k, HEADING])]
 
 
 def _lesser_side(rows: Floats, end: int) -> float:
     """The side to which the turn at an end is the lesser one, if the next bend is as it is."""
-    first, last = rows[[0, 1]] if end == 0 else rows[[-2, -1]]
-    ahead = last[[X, Y]] - first[[X, Y]]
+    first, last = (rows[:2] if end == 0 else rows[-2:]).tolist()
+    dx, dy = last[X] - first[X], last[Y] - first[Y]
     across = last[SIDE] * last[KEPT] - first[SIDE] * first[KEPT]
-    gap, line = math.hypot(*ahead), math.atan2(ahead[1], ahead[0])
+    gap, line = math.hypot(dx, dy), math.atan2(dy, dx)
     if gap > abs(across):
         line -= math.asin(across / gap)
-    turn = line - rows[0, HEADING] if end == 0 else rows[-1, HEADING] - line
+    turn = line - first[HEADING] if end == 0 else last[HEADING] - line
     return math.copysign(1.0, math.remainder(turn, math.tau))

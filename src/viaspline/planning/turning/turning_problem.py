@@ -153,14 +153,17 @@ class TurningProblem(PathProblem):
 
     def is_round(self, spans: Floats) -> bool:
         """Whether no turn is sharper than the circle round the body, about the reference point."""
-        return self._curvature_bound(spans) * self.requirements.outer_radius <= 1.0
+        radius = self.requirements.outer_radius
+        if not radius > 0.0:
+            return self._curvature_bound(spans) * radius <= 1.0
+        return self._curvature_bound(spans, 1.0 / radius) <= 1.0 / radius
 
-    def _curvature_bound(self, spans: Floats) -> float:
-        """What the curvature is nowhere above [1/m]."""
+    def _curvature_bound(self, spans: Floats, least: float = 0.0) -> float:
+        """What the curvature is nowhere above, at least what nobody looks below [1/m]."""
         flat = np.ascontiguousarray(spans[:, :, :2])
         is_closed = self.sequence.closed and np.array_equal(flat[0, 0], flat[-1, 3])
         ground = PiecewiseCubic(flat, closed=is_closed)  # with the seam: no turn there either
-        return curvature_bound(ground)[0]
+        return curvature_bound(ground, least)[0]
 
     def cost(self, spline_path: SplinePath) -> float:
         """What a path is chosen by [s or m]."""
