@@ -24,6 +24,7 @@ from viaspline.fleet.laying.stranded_robots import no_way_past_stranded, strande
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan_in
+from viaspline.planning.alternatives.record import Account
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.world.world import World
@@ -220,6 +221,11 @@ def _blamed(
 
 
 def _in_world_as_it_is(plan: Plan, world: World) -> Plan:
-    """A plan among resting places as one in the world without them, proven there."""
+    """A plan among resting places as one in the world without them, proven there.
+
+    Of those that are held for a whole fleet, some had a lattice of fifty megabytes.
+    """
+    if isinstance(plan.account, Account):
+        plan.account.without_lattices()
     requirements = Requirements.of(plan.mission, plan.tracking_error)
     return replace(plan, world=world, certificate=proven(plan.path, world, requirements))

@@ -56,6 +56,11 @@ class Account:
         """What a plan keeps of it: where nothing was met, not what the search went through."""
         return self if self.passed else KeptAccount((), self.preferred)
 
+    def without_lattices(self) -> None:
+        """Let go of the lattices of the search: they are made again when the ledger is read."""
+        for passed in self.passed.values():
+            passed.in_the_way.leg.router.without_lattices()
+
     @cached_property
     def ledger(self) -> tuple[LedgerEntry, ...]:
         """All entries, with the chosen curves as they lie in the end.

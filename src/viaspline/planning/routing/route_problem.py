@@ -106,6 +106,10 @@ class SearchSpace:
         """Those that are made, and those that are not yet."""
         return [], lattices(self.world, self.required, self.floor, self.places, self.most_cells)
 
+    def without_lattices(self) -> None:
+        """Let go of the lattices, some ten megabytes: they are made again where they are needed."""
+        vars(self).pop("_lattices", None)
+
     def __getstate__(self) -> dict[str, object]:
         """For another process: without the lattices, which are made there if they are needed."""
         return {name: part for name, part in vars(self).items() if name != "_lattices"}
