@@ -278,3 +278,13 @@ def test_a_space_whose_lattices_were_begun_can_be_pickled_and_makes_the_same_aga
     assert here
     assert len(here) == len(there)
     assert pickle.dumps(here[0]) == pickle.dumps(there[0])
+
+
+def test_lattices_that_were_let_go_are_made_again_as_they_were() -> None:
+    places = np.array([[-10.0, 0.0], [10.0, 0.0]])
+    router = Router(World([disc(0, 0, 3)], bounds=(-20, -20, 20, 20)), 1.0, places)
+    before = router.lattice.cells
+    router.without_lattices()
+    assert not router.has_lattice
+    np.testing.assert_array_equal(router.lattice.cells, before)
+    assert router.has_lattice

@@ -108,6 +108,8 @@ class AskedSides:
 
     def crossed(self, spans: Floats) -> NDArray[np.bool_]:
         """Which spans of the leg's curve cross a barrier that binds, (m,)."""
+        if not self.indices.size:
+            return np.zeros(len(spans), np.bool_)
         return np.asarray(crossings(spans, self.closed).any(axis=1))
 
     def with_binding(self, more: Sequence[int]) -> AskedSides:
