@@ -12,7 +12,7 @@ from functools import cached_property
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
-from viaspline.machine.allowance import allowance, allowance_on_bends, tracking_remedy
+from viaspline.machine.allowance import TrialDrives, allowance_on_bends, tracking_remedy
 from viaspline.machine.drivability import Drivability
 from viaspline.machine.eased_turns import eased_turns
 from viaspline.machine.machine_limits import limits_of
@@ -133,6 +133,11 @@ class Plan(ShownValue, SavedValue, ComparedByValue):
         once = route.closed and route.laps == 1  # of more laps the seams lie inside of the path
         return drivability_of(self.path, self.trajectory, robot, self.world, closed=once)
 
+    @cached_property
+    def _trials(self) -> TrialDrives:
+        """Trial drives of its robot along it, which two questions are asked of."""
+        return TrialDrives(self.path, self.trajectory, self.mission.robot)
+
 
 def whole_plan(mission: Mission, world: World) -> Plan:
     """Plan a mission that says how taut its spline is, or doesn't; ``auto`` is not among that.
@@ -181,7 +186,7 @@ def _with_steering_left(first: Plan, error: float) -> Plan:
     """
     roomy = []
     mission, robot = first.mission, first.mission.robot
-    for radius, kept in eased_turns(first.path, first.trajectory, robot):
+    for radius, kept in eased_turns(first._trials):
         eased = robot.model_copy(update={"min_turn_radius_m": radius})
         wider = mission.model_copy(update={"robot": eased})
         with suppress(PlanningError, GeometryError):
@@ -205,7 +210,7 @@ def _as_driven(first: Plan) -> Plan:
     """
     result = first
     for _ in range(MAX_TRIAL_ROUNDS):
-        needed = allowance(result.path, result.trajectory, result.mission.robot)
+        needed = result._trials.allowance
         if needed <= result.tracking_error:
             return result
         error = ALLOWANCE_GROWTH * max(needed, result.tracking_error)

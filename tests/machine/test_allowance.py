@@ -11,9 +11,9 @@ import pytest
 
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.errors import GeometryError
-from viaspline.machine.allowance import allowance, allowance_on_bends
+from viaspline.machine.allowance import TrialDrives, allowance, allowance_on_bends
 from viaspline.machine.machine_limits import limits_of
-from viaspline.machine.trial_drive import follow
+from viaspline.machine.trial_drive import follow, trackings
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planner import plan
@@ -27,6 +27,24 @@ def test_other_seeds_stay_within_the_allowance(robot_of: Any, bends: Any, kind: 
     for seed in range(4):
         tracking = follow(bends, trajectory, robot, seed=seed).tracking
         assert tracking.body_deviation(0.0) <= allowed
+
+
+def test_trial_drives_are_driven_once_whatever_is_asked_of_them(
+    robot_of: Any, bends: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    driven = []
+
+    def counted(*asked: Any) -> Any:
+        driven.append(asked)
+        return trackings(*asked)
+
+    monkeypatch.setattr("viaspline.machine.allowance.trackings", counted)
+    robot = robot_of("differential")
+    law = retime(bends, limits_of(robot))
+    trials = TrialDrives(bends, law, robot)
+    assert not driven
+    assert trials.largest_deviation < trials.allowance
+    assert len(driven) == 1
 
 
 @pytest.mark.parametrize("kind", ["differential", "skid-steer", "ackermann"])

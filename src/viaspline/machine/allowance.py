@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -64,71 +66,76 @@ def allowance(
         >>> allowance(line, trajectory, RobotSpec(drive={"differential": {"track_m": 0.5}})) < 0.05
         True
     """
-    return kept_for(largest_deviation(path, trajectory, robot, what), path, robot)
+    return TrialDrives(path, trajectory, robot, what).allowance
 
 
-def kept_for(largest: float, path: PiecewiseCubic, robot: RobotSpec) -> float:
-    """What to keep beyond the clearance where trial drives get so far beside a path [m].
+@dataclass(frozen=True)
+class TrialDrives:
+    """Simulated drives of a robot along a path: driven when their outcome is first asked for.
 
-    Args:
-        largest: See ``largest_deviation`` [m].
-        path: In the plane.
-        robot: Its body, drive and localisation.
-    """
-    even, uneven = (
-        (ERROR_MARGIN, UNEVEN_ERROR_MARGIN)
-        if is_random(robot)
-        else (STEADY_ERROR_MARGIN, UNEVEN_STEADY_ERROR_MARGIN)
-    )
-    margin = even if _is_even(path, robot) else uneven
-    return margin * largest + UNMEASURED_M
-
-
-def largest_deviation(
-    path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec, what: str = "its path"
-) -> float:
-    """How far any point of a robot's body gets beside its path in trial drives [m].
-
-    Args:
+    Attributes:
         path: In the plane.
         trajectory: Its time law.
         robot: Its body, drive and localisation.
         what: What the path is called where the robot can't follow it.
-
-    Raises:
-        GeometryError: When the robot doesn't come to the end of the path.
     """
-    reach = 0.0 if robot.footprint is None else robot.outer_radius
-    largest = 0.0
-    for tracking, finished in _trials(path, trajectory, robot):
-        if not finished:
-            raise GeometryError(
-                f"the robot can't follow {what}: in a trial drive it was {tracking.times[-1]:.0f} "
-                f"s under way at {tracking.progress[-1]:.1f} m of {path.length:.1f} m; "
-                f"give it {tracking_remedy(robot)}"
-            )
-        largest = max(largest, tracking.body_deviation(reach))
-    if not math.isfinite(largest):
-        raise GeometryError(
-            f"the robot can't follow {what} at all; give it {tracking_remedy(robot)}"
+
+    path: PiecewiseCubic
+    trajectory: Trajectory
+    robot: RobotSpec
+    what: str = "its path"
+
+    @cached_property
+    def allowance(self) -> float:
+        """What to keep beyond the clearance for the robot's tracking error [m].
+
+        Raises:
+            GeometryError: When the robot doesn't come to the end of the path.
+        """
+        even, uneven = (
+            (ERROR_MARGIN, UNEVEN_ERROR_MARGIN)
+            if is_random(self.robot)
+            else (STEADY_ERROR_MARGIN, UNEVEN_STEADY_ERROR_MARGIN)
         )
-    return largest
+        margin = even if self._are_even else uneven
+        return margin * self.largest_deviation + UNMEASURED_M
 
+    @cached_property
+    def largest_deviation(self) -> float:
+        """How far any point of the robot's body gets beside the path [m].
 
-def _trials(
-    path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec
-) -> Iterable[tuple[Tracking, bool]]:
-    """What trial drives are off from their path, and whether they came to its end."""
-    if is_random(robot):
-        return trackings(path, trajectory, robot, TRIAL_SEEDS)
-    track = follow(path, trajectory, robot)
-    return [(track.tracking, track.finished)]
+        Raises:
+            GeometryError: When the robot doesn't come to the end of the path.
+        """
+        robot = self.robot
+        reach = 0.0 if robot.footprint is None else robot.outer_radius
+        largest = 0.0
+        for tracking, finished in self._drives():
+            if not finished:
+                raise GeometryError(
+                    f"the robot can't follow {self.what}: in a trial drive it was "
+                    f"{tracking.times[-1]:.0f} s under way at {tracking.progress[-1]:.1f} m of "
+                    f"{self.path.length:.1f} m; give it {tracking_remedy(robot)}"
+                )
+            largest = max(largest, tracking.body_deviation(reach))
+        if not math.isfinite(largest):
+            raise GeometryError(
+                f"the robot can't follow {self.what} at all; give it {tracking_remedy(robot)}"
+            )
+        return largest
 
+    def _drives(self) -> Iterable[tuple[Tracking, bool]]:
+        """What each is off from the path, and whether it came to its end."""
+        if is_random(self.robot):
+            return trackings(self.path, self.trajectory, self.robot, TRIAL_SEEDS)
+        track = follow(self.path, self.trajectory, self.robot)
+        return [(track.tracking, track.finished)]
 
-def _is_even(path: PiecewiseCubic, robot: RobotSpec) -> bool:
-    """Whether the largest deviations of a robot's drives along a path are much alike."""
-    reserve = steering_reserve(robot, path.max_curvature()[0])
-    return reserve >= ENOUGH_RESERVE - RESERVE_SLACK and not steers_slowly(robot)
+    @property
+    def _are_even(self) -> bool:
+        """Whether the largest deviations of the drives are much alike."""
+        reserve = steering_reserve(self.robot, self.path.max_curvature()[0])
+        return reserve >= ENOUGH_RESERVE - RESERVE_SLACK and not steers_slowly(self.robot)
 
 
 def allowance_on_bends(robot: RobotSpec, radius: float) -> float:

@@ -7,18 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 
-from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.machine.allowance import kept_for, largest_deviation
+from viaspline.machine.allowance import TrialDrives
 from viaspline.machine.steering_reserve import (
     ENOUGH_RESERVE,
     roomy_turn_radius,
     steering_reserve,
     with_steering_to_spare,
 )
-from viaspline.mission.robot_parts import RobotSpec
-from viaspline.trajectory.trajectory import Trajectory
 
 RESERVES = (ENOUGH_RESERVE, 0.5 * ENOUGH_RESERVE)
 """What turns are to leave of the steering to correct with: the next where that doesn't fit."""
@@ -28,31 +26,26 @@ DRIFT = 1.5
 Of 32 random robots 7 get up to 1.24 times as far, and the others 1.7 to 26 times."""
 
 
-def eased_turns(
-    path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec
-) -> Iterator[tuple[float, float]]:
+def eased_turns(trials: TrialDrives) -> Iterator[tuple[float, float]]:
     """Radii of turns that leave a robot steering to correct with, in place of those of a path.
 
     Args:
-        path: In the plane.
-        trajectory: Its time law.
-        robot: Its body, drive and localisation.
+        trials: Its trial drives along the path.
 
     Yields:
         The radius, each less wide than the one before, and what to keep for the robot's tracking
         error then, about [m]; nothing where the robot doesn't drift off the path.
     """
-    sharpest = path.max_curvature()[0]
+    robot = trials.robot
+    sharpest = trials.path.max_curvature()[0]
     if steering_reserve(robot, sharpest) >= ENOUGH_RESERVE:
         return
-    spare = with_steering_to_spare(robot)
+    spared = replace(trials, robot=with_steering_to_spare(robot))
     kept = 0.0
     with suppress(GeometryError):  # it doesn't come to its end: nothing is known of what to keep
-        own = largest_deviation(path, trajectory, robot)
-        spared = largest_deviation(path, trajectory, spare)
-        if own / max(spared, 1e-9) <= DRIFT:
+        if trials.largest_deviation / max(spared.largest_deviation, 1e-9) <= DRIFT:
             return
-        kept = kept_for(spared, path, spare)
+        kept = spared.allowance
     before = None
     for reserve in RESERVES:
         radius = roomy_turn_radius(robot, reserve)
