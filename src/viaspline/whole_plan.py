@@ -5,6 +5,7 @@ Tested through ``test_planner``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -238,9 +239,7 @@ def _with_error(mission: Mission, world: World, error: float) -> Plan:
         raise
     if mission.world.moving:
         return _among_what_moves(mission, world, requirements, found, error)
-    stops = stations(found.path, mission.robot)
-    zones = mission.world.speed_zones
-    trajectory = retime(found.path, limits_of(mission.robot), stops, zones=zones)
+    trajectory = fastest_law(found.path, mission, stations(found.path, mission.robot))
     return Plan(mission, world, found.path, found.certificate, found.account, trajectory, error)
 
 
@@ -258,6 +257,17 @@ def _among_what_moves(
         timed.solution.path, timed.solution.certificate, timed.solution.account,
     )  # fmt: skip
     return Plan(mission, world, path, certificate, account, timed.trajectory, error, timed)
+
+
+def fastest_law(path: Path, mission: Mission, stops: Sequence[Station]) -> Trajectory:
+    """The fastest law along a path of a mission, with its stops, where nothing moves.
+
+    Args:
+        path: In the plane.
+        mission: Its robot's limits and its speed zones are kept.
+        stops: Where the robot has to stop: see ``stations``.
+    """
+    return retime(path, limits_of(mission.robot), stops, zones=mission.world.speed_zones)
 
 
 def stations(path: Path, robot: RobotSpec) -> tuple[Station, ...]:

@@ -24,11 +24,9 @@ from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import Timing
 from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
-from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
-from viaspline.trajectory.retime import retime
-from viaspline.whole_plan import stations
+from viaspline.whole_plan import fastest_law, stations
 
 ROOMS_M = (0.3, 0.6, 0.15, 0.0)
 """So much farther apart than they must be robots are laid, if they can, one value after the other
@@ -123,6 +121,5 @@ def driven_alone(plan: Plan) -> Plan:
     Args:
         plan: With whatever law.
     """
-    robot, zones = plan.mission.robot, plan.mission.world.speed_zones
-    law = retime(plan.path, limits_of(robot), stations(plan.path, robot), zones=zones)
+    law = fastest_law(plan.path, plan.mission, stations(plan.path, plan.mission.robot))
     return replace(plan, trajectory=law, timed=None)

@@ -31,9 +31,8 @@ from viaspline.spacetime.plan_among import moving_proof
 from viaspline.spacetime.timed_drive import TimedDrive
 from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.limits import Station
-from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
-from viaspline.whole_plan import stations
+from viaspline.whole_plan import fastest_law, stations
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
@@ -49,13 +48,9 @@ FastestLaw = Callable[[Path, Mission, Sequence[Station]], Trajectory]
 """The fastest law on the path of a mission, with its stops, where nothing moves."""
 
 
-def _fastest(path: Path, mission: Mission, stops: Sequence[Station]) -> Trajectory:
-    return retime(path, limits_of(mission.robot), stops, zones=mission.world.speed_zones)
-
-
 def planar_plan(
     plan: PlanFile, mission: Mission, world: World | None = None, stops_on: StopsOn = _stations,
-    fastest: FastestLaw = _fastest,
+    fastest: FastestLaw = fastest_law,
 ) -> Plan:  # fmt: skip
     """The plan of a file, of which nothing is believed that can be proven.
 

@@ -13,7 +13,6 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.courses import AnyPlan, FleetCourses
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats
-from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
 from viaspline.planning.plan_drive import repeated
 from viaspline.space.spatial_plan import SpatialPlan
@@ -23,9 +22,8 @@ from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.limits import Station
-from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
-from viaspline.whole_plan import stations
+from viaspline.whole_plan import fastest_law, stations
 
 SAME_M = 1e-6
 """Places on a path that are no farther apart are one."""
@@ -62,8 +60,7 @@ def driven_laps(lap: AnyPlan, laps: int) -> AnyPlan:
         law = retime_in_space(path, lap.limits, stops, yaw, zones=zones)
         airborne = (0.0, path.length)
         return replace(lap, mission=mission, path=path, airborne=airborne, yaw=yaw, trajectory=law)
-    limits = limits_of(asked.robot)
-    law = retime(path, limits, stops_on_laps(path, mission), zones=zones)
+    law = fastest_law(path, mission, stops_on_laps(path, mission))
     return replace(lap, mission=mission, path=path, trajectory=law)
 
 
@@ -91,7 +88,7 @@ def law_of_laps(path: Path, mission: Mission, stops: Sequence[Station]) -> Traje
     seams = seams_of(path, mission.route.laps)
     a_lap = Path(path.spans[: len(path.spans) // mission.route.laps], vias=[])
     own = [stop for stop in stops if stop.distance < seams[1] - SAME_M]
-    law = retime(a_lap, limits_of(mission.robot), own, zones=mission.world.speed_zones)
+    law = fastest_law(a_lap, mission, own)
     return repeated_law(law, seams, law.duration)
 
 
@@ -158,6 +155,7 @@ def repeated_law(law: Trajectory, seams: Floats, period: float) -> Trajectory:
     Example:
         >>> from viaspline.trajectory.limits import Limits
         >>> from viaspline.curve.path import Path
+        >>> from viaspline.trajectory.retime import retime
         >>> line = Path([[[0, 0], [3, 0], [6, 0], [9, 0]]], vias=[])
         >>> law = retime(line, Limits(max_speed=1, max_accel=1))
         >>> twice = repeated_law(law, np.array([0.0, 9.0, 18.0]), 15.0)
@@ -180,6 +178,7 @@ def laws_in_a_row(parts: Sequence[Trajectory]) -> Trajectory:
     Example:
         >>> from viaspline.trajectory.limits import Limits
         >>> from viaspline.curve.path import Path
+        >>> from viaspline.trajectory.retime import retime
         >>> line = Path([[[0, 0], [3, 0], [6, 0], [9, 0]]], vias=[])
         >>> law = retime(line, Limits(max_speed=1, max_accel=1))
         >>> both = laws_in_a_row([law, law.moved(9.0).delayed(15.0)])

@@ -23,7 +23,6 @@ from viaspline.fleet.saved.course_record import CourseRecord
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import standing_laws
 from viaspline.kernels.arrays import Floats
-from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 from viaspline.saved_plans.law_within_limits import PROVEN_OFF_M
@@ -31,7 +30,7 @@ from viaspline.saved_plans.plan_file import REMEDY
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.timing.retime_in_space import retime_in_space
-from viaspline.trajectory.retime import retime
+from viaspline.whole_plan import fastest_law
 
 COURSE_FILE: Final = FileKind("courses.npz", 2_000_000_000, "plan the fleet again")
 SAME: Final = 1e-6
@@ -172,8 +171,7 @@ def _alone(member: FleetMember, plan: Plan | SpatialPlan) -> Plan | SpatialPlan:
             stops = tuple(flown_stops_on_laps(spatial_problem_of(plan.mission), plan.path))
         law = retime_in_space(plan.path, plan.limits, stops, plan.yaw, zones=zones)
     elif member.mission.route.is_patrol:
-        at_rest, limits = stops_on_laps(plan.path, plan.mission), limits_of(plan.mission.robot)
-        law = retime(plan.path, limits, at_rest, zones=zones)
+        law = fastest_law(plan.path, plan.mission, stops_on_laps(plan.path, plan.mission))
     else:
         return driven_alone(plan)
     return replace(plan, trajectory=law)
