@@ -21,7 +21,12 @@ from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.pending_search import FIRST_STAGE
 from viaspline.robot.navigation.schedule import ReducedClearance, Schedule, Wait
 from viaspline.robot.replanning.better_path import better_path, with_spare
-from viaspline.robot.replanning.deadline import RETRY_INTERVAL_S, is_paused, with_time_to_search
+from viaspline.robot.replanning.deadline import (
+    RETRY_INTERVAL_S,
+    SPENT_AT_REST,
+    is_paused,
+    with_time_to_search,
+)
 from viaspline.robot.replanning.recovery import restore_clearance, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult, search
@@ -100,7 +105,8 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
     except SpentBudgetError as error:
         result = ReplanResult(None, error, begin_with=FIRST_STAGE)
     if result.begin_with is not None:
-        decision = keep_searching(blocked, result)
+        kept = keep_searching(blocked, result)
+        decision = stop_for_good(blocked, SPENT_AT_REST) if kept is None else kept
         return replace(decision, searched=True, work=blocked.work)
     if result.candidate is None:
         decision = _hold(context, _plain(result.refusal))

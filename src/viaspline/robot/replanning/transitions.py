@@ -16,12 +16,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.reschedule import braking_at_once, rescheduled
 from viaspline.robot.navigation.schedule import Schedule
-from viaspline.robot.replanning.deadline import (
-    SPENT_AT_REST,
-    gone_on,
-    last_place,
-    must_brake,
-)
+from viaspline.robot.replanning.deadline import gone_on, last_place, must_brake
 from viaspline.robot.replanning.path_candidate import PathCandidate
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult
@@ -72,17 +67,20 @@ def stop_for_good(context: ReplanContext, reason: str) -> Decision:
     return Decision(schedule, (braked(context, reason),) if context.speed > 0.0 else ())
 
 
-def keep_searching(context: ReplanContext, result: ReplanResult) -> Decision:
+def keep_searching(context: ReplanContext, result: ReplanResult) -> Decision | None:
     """Look on in the steps to come; until then go no farther than the path is clear.
 
     Under way the robot brakes for that as late as it can, or as soon as its time to search is up.
+
+    Returns:
+        None where a robot that stands has spent all that it may on its search.
     """
     assert result.begin_with is not None
     before, schedule = context.schedule, context.schedule
     held_at = context.stop if must_brake(context) else last_place(context)
     pending = gone_on(context, result.begin_with, held_at, result.doubt)
     if pending is None:
-        return stop_for_good(context, SPENT_AT_REST)
+        return None
     held = replace(schedule, pending=pending, held_at=held_at)
     if before.pending is None or held_at != before.held_at:  # else its law ends there already
         held = rescheduled(context.task, context.progress, context.knowledge, held, context.speed)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from viaspline.robot.navigation.decision import Decision
-from viaspline.robot.replanning.deadline import with_time_to_search
+from viaspline.robot.replanning.deadline import SPENT_AT_REST, with_time_to_search
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.replan_search import search
 from viaspline.robot.replanning.transitions import keep_searching, stop_for_good, take_over
@@ -21,11 +21,20 @@ def way_round(blocked: ReplanContext) -> Decision:
         blocked: The robot, with what is in its way.
     """
     context = with_time_to_search(blocked)
+    found = way_on(context)
+    decision = stop_for_good(context, found) if isinstance(found, str) else found
+    return replace(decision, searched=True, work=context.work)
+
+
+def way_on(context: ReplanContext) -> Decision | str:
+    """Over to a new path, or on looking for one; why not, where there is nothing left but to stop.
+
+    Args:
+        context: The robot, with what is in its way and what it may spend on its search.
+    """
     result = search(context)
     if result.candidate is not None:
-        decision = take_over(context, result.candidate, result.skip)
-    elif result.begin_with is None:
-        decision = stop_for_good(context, str(result.refusal))
-    else:
-        decision = keep_searching(context, result)
-    return replace(decision, searched=True, work=context.work)
+        return take_over(context, result.candidate, result.skip)
+    if result.begin_with is None:
+        return str(result.refusal)
+    return keep_searching(context, result) or SPENT_AT_REST

@@ -22,10 +22,11 @@ from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import rescheduled
 from viaspline.robot.navigation.schedule import ReducedClearance, Schedule
+from viaspline.robot.replanning.deadline import with_time_to_search
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.transitions import stop_for_good, take_over
-from viaspline.robot.replanning.way_round import way_round
+from viaspline.robot.replanning.way_round import way_on
 from viaspline.robot.run import Event
 from viaspline.robot.watching.path_deviation import Deviation
 
@@ -135,19 +136,20 @@ def _looked_for(context: ReplanContext, deviation: Deviation, work: float) -> De
         deviation: How far it is beside it.
         work: What was spent already [s of the reference machine].
     """
-    decision = way_round(context)
-    reason = decision.schedule.giving_up
-    if decision.replan is not None:
-        told = _told(context, deviation, LAID_ANEW, "laid anew")
-    elif reason is None:
-        told = _told(context, deviation, "one that keeps so much is looked for", "searches")
-    else:
+    searching = with_time_to_search(context)
+    found = way_on(searching)
+    if isinstance(found, str):
         told = _told(context, deviation, "no path ahead that keeps so much was found", "stops")
         why = f"it gets {deviation.off:.2f} m beside its path, and what is ahead is not clear then"
-        decision = stop_for_good(context, f"{why}: {reason}")
-    return replace(
-        decision, events=(told, *decision.events), searched=True, work=work + decision.work
-    )
+        decision = stop_for_good(context, f"{why}: {found}")
+    elif found.replan is None:
+        told = _told(context, deviation, "one that keeps so much is looked for", "searches")
+        decision = found
+    else:
+        told = _told(context, deviation, LAID_ANEW, "laid anew")
+        decision = found
+    events = (told, *decision.events)
+    return replace(decision, events=events, searched=True, work=work + searching.work)
 
 
 def _candidate(context: ReplanContext) -> tuple[PathCandidate | None, float]:
