@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from viaspline.fleet.late_share import WELL_SERVED_SHARE, late_share
 from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_order
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.laying.alone_paths import AlonePaths
 from viaspline.fleet.laying.resting_places import all_rests
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timing.rides import FleetRides
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 
@@ -64,6 +67,16 @@ def led_fleet(
             break
     assert best is not None  # there are shapes
     return best
+
+
+def may_be_led_sooner(rides: FleetRides, arrivals: Floats) -> bool:
+    """Whether robots that are all served along their own paths are many, and late.
+
+    Args:
+        rides: How each drives alone.
+        arrivals: When each arrives [s], (n,).
+    """
+    return len(arrivals) >= LEAST_LED and late_share(rides, arrivals) > WELL_SERVED_SHARE
 
 
 def is_dense(fleet: Fleet, alone: AlonePaths) -> bool:

@@ -11,11 +11,11 @@ from viaspline.fleet.among_moving import among_moving, proven_among
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.late_share import WELL_SERVED_SHARE, arrivals_of, late_share
+from viaspline.fleet.late_share import arrivals_of
 from viaspline.fleet.laying.alone_paths import AlonePaths, alone_paths
 from viaspline.fleet.laying.laid_pieces import THIS_PROCESS, LayingProgress
 from viaspline.fleet.laying.laying_workers import LayingWorkers
-from viaspline.fleet.led_fleet import LEAST_LED, is_dense, led_at_once
+from viaspline.fleet.led_fleet import is_dense, led_at_once, may_be_led_sooner
 from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.patrols.timed_patrols import timed_patrols
@@ -194,10 +194,9 @@ def is_settled_by_priority(plan: FleetPlan, paths: CrossingPaths) -> bool:
     """
     if len(plan.plans) < len(paths.laid.plans):
         return False
-    members = plan.fleet.members
-    if plan.patrols is not None or plan.fleet.world.moving or len(members) < LEAST_LED:
+    if plan.patrols is not None or plan.fleet.world.moving:
         return True
-    if late_share(plan.rides, arrivals_of(plan.courses, plan.laws)) > WELL_SERVED_SHARE:
+    if may_be_led_sooner(plan.rides, arrivals_of(plan.courses, plan.laws)):
         return False
     kept = paths.laid.kept
     return kept is None or not is_dense(plan.fleet, AlonePaths.of_kept(kept))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.laying.alone_paths import AlonePaths
-from viaspline.fleet.led_fleet import LEAST_LED, is_dense, led_at_once, led_fleet
+from viaspline.fleet.led_fleet import is_dense, led_at_once, led_fleet, may_be_led_sooner
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
@@ -60,8 +60,7 @@ def served_along(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> Ti
     """As ``served_fleet``, where robots aren't led over a lattice at once."""
     ways = FleetWays.of(fleet, paths)
     timed = TimedFleet.by_priority(ways)
-    is_small = len(ways.members) < LEAST_LED
-    if timed.is_served_well or (is_small and not timed.blocked):
+    if not timed.blocked and not may_be_led_sooner(ways.rides, timed.arrivals()):
         return timed
     led = led_fleet(
         ways.members, dict(zip(ways.courses.names, ways.planar, strict=True)), fleet.separation_m

@@ -15,7 +15,6 @@ from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_of
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.late_share import WELL_SERVED_SHARE, arrivals_of, late_share
 from viaspline.fleet.patrols.driven_laps import write_law
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.renewed_courses import renewed_courses
@@ -317,21 +316,11 @@ class TimedFleet:
     def rank(self) -> tuple[int, float]:
         """How many have no law, and when the others arrive, weighed by priority: less is better."""
         weight = priority_weights([one.priority for one in self.ways.members])
-        arrivals = self.arrivals()
-        there = np.isfinite(arrivals)
-        return len(self.timing.blocked), float(weight[there] @ arrivals[there])
-
-    @property
-    def is_served_well(self) -> bool:
-        """Whether all robots are served, and little later than if they were alone."""
-        late = late_share(self.ways.rides, self.arrivals())
-        return not self.timing.blocked and late <= WELL_SERVED_SHARE
+        return self.timing.rank(self.ways.courses, weight)
 
     def arrivals(self) -> Floats:
         """When each robot arrives; infinite for those that have no law [s], (n,)."""
-        arrivals = arrivals_of(self.ways.courses, self.timing.laws)
-        arrivals[list(self.timing.blocked)] = np.inf
-        return arrivals
+        return self.timing.arrivals(self.ways.courses)
 
     def last_arrival(self) -> float:
         """When the last robot that ends has arrived [s]; minus infinity if none is under way."""

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.late_share import arrivals_of
 from viaspline.fleet.timing.forced_orders import forced_orders, timing_order
 from viaspline.fleet.timing.law_search import LawSearch
 from viaspline.fleet.timing.rides import FleetRides
-from viaspline.kernels.arrays import Ints
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.passages import passages_of
@@ -40,6 +40,27 @@ class Timing:
 
     laws: FleetLaws
     blocked: dict[int, int]
+
+    def arrivals(self, courses: FleetCourses) -> Floats:
+        """When each robot arrives; infinite for those that have no law [s], (n,).
+
+        Args:
+            courses: The paths of the robots.
+        """
+        arrivals = arrivals_of(courses, self.laws)
+        arrivals[list(self.blocked)] = np.inf
+        return arrivals
+
+    def rank(self, courses: FleetCourses, weight: Floats) -> tuple[int, float]:
+        """How many have no law, and when the others arrive, weighed: less is better.
+
+        Args:
+            courses: The paths of the robots.
+            weight: What a second of each robot counts, (n,): see ``priority_weights``.
+        """
+        arrivals = self.arrivals(courses)
+        there = np.isfinite(arrivals)
+        return len(self.blocked), float(weight[there] @ arrivals[there])
 
 
 def time_paths(
@@ -87,7 +108,7 @@ def time_paths(
             return _sooner_of_both(search, best, _laws_to_fill(given, left_out), order)
         found = _timed(courses, crossings, passages, rides, asked, ranks, left_out, given)
         other = _given_laws(search, found.laws.packed)
-        best = min(other, best, key=partial(_lost, search))
+        best = min(other, best, key=lambda one: one.rank(courses, search.weight))
     idle = 0
     while best.blocked and idle < MAX_IDLE:
         learned = [(robot, other) for robot, other in found.blocked.items() if other not in settled]
@@ -133,14 +154,6 @@ def _sooner_of_both(search: LawSearch, best: Timing, laws: PackedLaws, order: In
     ):  # fmt: skip
         return Timing(FleetLaws(laws), {})
     return best
-
-
-def _lost(search: LawSearch, timing: Timing) -> tuple[int, float]:
-    """What a timing is chosen by: how many have no law, and when all others arrive, weighed."""
-    laws, ends = timing.laws.packed, search.courses.packed.first[1:] - 1
-    there = laws.is_timed & np.isfinite(laws.arrive[ends])
-    there[list(timing.blocked)] = False
-    return len(timing.blocked), float(search.weight[there] @ laws.arrive[ends][there])
 
 
 def _given_laws(search: LawSearch, laws: PackedLaws) -> Timing:
