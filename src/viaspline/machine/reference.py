@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cusps import SAME_CUSP, cusps
+from viaspline.kernels.curve.cusps import SAME_CUSP
 from viaspline.kernels.tracking.reference_path import ReferencePath
+from viaspline.machine.turns_on_spot import cusps_of
 
 MAX_SPACING_M, MAX_TURN_RAD = 0.25, 0.03
 """From one point to the next at most, and turning between them [m], [rad]."""
@@ -68,7 +69,7 @@ def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
 
 def _with_cusps(path: PiecewiseCubic, u: Floats, inside: Floats) -> tuple[Floats, Floats]:
     """Parameters of places and of their headings, with two places at every cusp in a span."""
-    back = cusps(np.ascontiguousarray(path.spans))
+    back = cusps_of(path)
     if not back.size:
         return u, inside
     at = np.searchsorted(u, np.repeat(back, 2))

@@ -10,7 +10,7 @@ import numpy as np
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve import cusps as kernels
+from viaspline.kernels.curve.cusps import cusps
 from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.machine.robot_model import drive_model_of, is_driven
 from viaspline.mission.robot_parts import RobotSpec
@@ -50,13 +50,26 @@ def corners(path: PiecewiseCubic) -> tuple[Floats, Floats]:
     first, last = _direction(flat[index]), _direction(flat[index, ::-1]) + np.pi
     jumps = np.remainder(first[1:] - last[:-1] + np.pi, 2.0 * np.pi) - np.pi
     found = np.flatnonzero(np.abs(jumps) > CORNER_RAD)
-    back = kernels.cusps(np.ascontiguousarray(flat))
+    back = cusps_of(path)
     if not found.size and not back.size:
         return np.empty(0), np.empty(0)
     u = np.concatenate((index[found + 1].astype(float), back))
     angles = np.concatenate((jumps[found], np.full(back.size, np.pi)))
     order = np.argsort(u, kind="stable")
     return np.atleast_1d(np.asarray(path.distance(u[order]))), angles[order]
+
+
+def cusps_of(path: PiecewiseCubic) -> Floats:
+    """Parameters of the cusps inside of the spans of a path, in order, shape (k,).
+
+    Args:
+        path: Of its curves in space, the ground track counts.
+
+    Example:
+        >>> cusps_of(PiecewiseCubic([[[0, 0], [4, 0], [4, 0], [0, 0]]])).tolist()
+        [0.5]
+    """
+    return cusps(np.ascontiguousarray(path.spans[:, :, :2]))
 
 
 def seam_corner(path: PiecewiseCubic) -> float:

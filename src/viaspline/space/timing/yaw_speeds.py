@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 
+from viaspline.machine.turns_on_spot import TURN
 from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.slow_zones import Slow
@@ -61,7 +62,7 @@ def with_yaw_turns(
         dwell = 0.0 if rate is None else abs(by) / rate
         near = next((d for d in stops if math.isclose(d, at, rel_tol=1e-9, abs_tol=1e-9)), None)
         if near is None:
-            stops[at] = Station(at, dwell, "turn")
+            stops[at] = Station(at, dwell, TURN)
         else:
             stop = stops[near]
             stops[near] = Station(stop.distance, max(stop.dwell, dwell), stop.name)
