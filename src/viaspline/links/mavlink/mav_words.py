@@ -14,6 +14,8 @@ MISSION, FENCE, RALLY = 0, 1, 2
 LISTS: Final[Mapping[int, str]] = {MISSION: "mission", FENCE: "fence", RALLY: "rally points"}
 
 ACCEPTED: Final = 0
+MISSION_ERROR: Final = 1
+MISSION_UNSUPPORTED: Final = 3
 MISSION_CANCELLED: Final = 15
 
 MISSION_RESULTS: Final[Mapping[int, str]] = {
@@ -49,8 +51,6 @@ COMMAND_RESULTS: Final[Mapping[int, str]] = {
     9: "its frame isn't supported",
 }
 """MAV_RESULT."""
-
-IN_PROGRESS: Final = 5
 
 SET_MODE: Final = 176
 ARM: Final = 400

@@ -11,7 +11,15 @@ from viaspline.links.mavlink.common_messages import Heartbeat, MissionItemInt
 from viaspline.links.mavlink.conversation import Conversation
 from viaspline.links.mavlink.exchange import Failure
 from viaspline.links.mavlink.item_differences import differences, same_until
-from viaspline.links.mavlink.mav_words import ARMED, FENCE, LISTS, MISSION, RALLY
+from viaspline.links.mavlink.mav_words import (
+    ARMED,
+    FENCE,
+    LISTS,
+    MISSION,
+    MISSION_ERROR,
+    MISSION_UNSUPPORTED,
+    RALLY,
+)
 from viaspline.links.mavlink.mission_download import MissionDownload
 from viaspline.links.mavlink.mission_items import Lists, addressed
 from viaspline.links.mavlink.mission_upload import MissionUpload
@@ -148,7 +156,7 @@ def _on_board(
 
 
 def _remedy(kind: int, failure: Failure | None) -> str:
-    again = "mend it and send it again before anyone starts it"
-    if kind == FENCE and failure is not None and failure.result in (1, 3):
+    no_fences = (MISSION_ERROR, MISSION_UNSUPPORTED)  # what one says that knows none
+    if kind == FENCE and failure is not None and failure.result in no_fences:
         return "if it knows no fences, --no-fence sends the mission alone"
-    return again
+    return "mend it and send it again before anyone starts it"

@@ -7,7 +7,15 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 from viaspline.links.mavlink.common_messages import Heartbeat
-from viaspline.links.mavlink.mav_words import ARDUPILOT, AUTOPILOTS, COPTERS, PX4, ROVERS, TYPES
+from viaspline.links.mavlink.mav_words import (
+    ARDUPILOT,
+    AUTOPILOTS,
+    COPTERS,
+    CUSTOM_MODE,
+    PX4,
+    ROVERS,
+    TYPES,
+)
 
 
 class Modes(NamedTuple):
@@ -121,5 +129,6 @@ class Vehicle:
         (1.0, 4.0, 4.0)
         """
         if self.autopilot == PX4:
-            return 1.0, float(custom_mode >> 16 & 0xFF), float(custom_mode >> 24)
-        return 1.0, float(custom_mode), 0.0
+            main, sub = custom_mode >> 16 & 0xFF, custom_mode >> 24
+            return float(CUSTOM_MODE), float(main), float(sub)
+        return float(CUSTOM_MODE), float(custom_mode), 0.0
