@@ -49,11 +49,6 @@ class MapGround:
     label: str
     tone: MapColours = MapColours()
 
-    @property
-    def has_unknown(self) -> bool:
-        """Whether there are squares that nobody has seen."""
-        return self.grid.unknown is not None
-
     def draw(self, axes: Axes, zorder: float) -> list[Rectangle]:
         """Draw what can be seen of it; returns what belongs in a legend."""
         view = view_of(axes)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Any
 
 from viaspline.robot.state import Command
 from viaspline.ros_messages.stamps import header
-
-NO_TURN: Final = (0.0, 0.0)
 
 
 def twist(along: float, across: float = 0.0, yaw_rate: float = 0.0) -> dict[str, Any]:

@@ -83,9 +83,7 @@ def test_a_flat_world_takes_no_solids(key: str) -> None:
         World([Obstacle.model_validate({key: shape[key]})])
 
 
-def test_the_sides_that_are_left_when_one_is_asked_for_or_forbidden() -> None:
+def test_the_side_that_is_left_in_the_plane_when_one_is_asked_for_or_forbidden() -> None:
     disc = {"center": (0, 0), "radius": 1}
-    over = Obstacle(circle=disc, pass_on="over")
-    assert (over.allowed_sides, over.forced_side) == (("over",), None)
-    not_left = Obstacle(circle=disc, never_pass_on="left")
-    assert (not_left.allowed_sides, not_left.forced_side) == (("right", "over", "under"), "right")
+    assert Obstacle(circle=disc, pass_on="over").forced_side is None
+    assert Obstacle(circle=disc, never_pass_on="left").forced_side == "right"

@@ -1,13 +1,11 @@
-"""What a conversation with a vehicle is: a value that takes messages and time, and gives messages.
-
-Nothing here reads a clock or a socket; ``conversation`` does.
+"""What every exchange with a vehicle says, how long it waits for answers, and why it fails.
 
 Tested through ``links/mavlink/test_mission_upload`` and ``links/mavlink/test_mission_download``.
 """
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple, Protocol, Self
+from typing import Final, NamedTuple
 
 from viaspline.links.mavlink.mav_words import mission_result
 from viaspline.links.mavlink.message import MavlinkMessage
@@ -50,28 +48,3 @@ class Failure(NamedTuple):
             return f"it gave no answer about {what}, {asked}"
         of = "" if self.item is None else f" of the {name}"
         return f"it refused {what}{of}: {mission_result(self.result)}"
-
-
-class Exchange(Protocol):
-    """A conversation about one thing."""
-
-    @property
-    def is_over(self) -> bool:
-        """Whether nothing more is to be said."""
-        ...
-
-    def begun(self, now: float) -> tuple[Self, Said]:
-        """Begin.
-
-        Args:
-            now: [s].
-        """
-        ...
-
-    def heard(self, message: MavlinkMessage, now: float) -> tuple[Self, Said]:
-        """Take a message of the vehicle."""
-        ...
-
-    def waited(self, now: float) -> tuple[Self, Said]:
-        """Let time pass."""
-        ...

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Annotated, Any, Final, Literal, get_args
+from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, InstanceOf
 from pydantic.json_schema import SkipJsonSchema
@@ -33,7 +33,6 @@ Side = Literal["left", "right"]
 """A side on which an obstacle in the plane is passed."""
 SpatialSide = Literal["left", "right", "over", "under"]
 """A side on which an obstacle in space is passed."""
-SPATIAL_SIDES: Final[tuple[SpatialSide, ...]] = get_args(SpatialSide)
 
 KINDS: Final[Mapping[str, type[Shape]]] = {
     "circle": Circle,
@@ -197,14 +196,3 @@ class Obstacle(
         if self.pass_on is None and self.never_pass_on == "right":
             return "left"
         return None
-
-    @property
-    def allowed_sides(self) -> tuple[SpatialSide, ...]:
-        """The sides on which it may be passed in space, from either key.
-
-        >>> Obstacle(circle={"center": (0, 0), "radius": 2}, never_pass_on="over").allowed_sides
-        ('left', 'right', 'under')
-        """
-        if self.pass_on is not None:
-            return (self.pass_on,)
-        return tuple(side for side in SPATIAL_SIDES if side != self.never_pass_on)

@@ -19,7 +19,6 @@ MAX_ROWS = 40  # of the robots that are most delayed
 ALL_ROWS = 20  # robots that have a row each, delayed or not
 LEAST_ROWS = 8  # of a larger fleet
 BAR = 0.72  # of a row
-WAITING_BAR = 0.4  # of a row
 WORTH_SAYING_S = 0.05  # of lateness
 STANDS_COLOUR = "#dfe3e8"
 

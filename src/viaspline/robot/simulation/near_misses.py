@@ -6,7 +6,7 @@ A robot can only keep clear of what it knows of in time: while it can still brak
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,9 +31,6 @@ OUTLINE_STEP_M = 0.005
 
 DIRECTIONS = 4096
 """In which the nearest place on a surface is looked for."""
-
-Shown = Callable[[World, Floats], float | None]
-"""When a sensor first shows a thing, at a place on its surface [s]."""
 
 
 @dataclass(frozen=True)

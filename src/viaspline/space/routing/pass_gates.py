@@ -31,8 +31,6 @@ SIDE_BITS: Final[dict[PassSide, int]] = {
 
 NO_GATES: Final[Floats] = np.empty((0, 8))
 
-_ALL = LEFT | RIGHT | OVER | UNDER
-
 
 def gate(solid: Solid, start: ArrayLike, goal: ArrayLike, allowed: Iterable[PassSide]) -> Floats:
     """The gate of a solid on the leg between two places.
