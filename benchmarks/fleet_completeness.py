@@ -19,7 +19,8 @@ from timing import clock
 import viaspline as vs
 from viaspline.fleet.crossing_paths import crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.fleet_ways import FleetWays
+from viaspline.fleet.timed_fleet import TimedFleet
 
 SEPARATION_M = 0.5
 JERKY = 0.1

@@ -21,10 +21,11 @@ import viaspline as vs
 from viaspline.fleet.courses import courses_of
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.late_share import arrivals_of, late_share
 from viaspline.fleet.laying.lay_paths import LaidPaths, lay_paths
 from viaspline.fleet.swerved_fleet import swerved_fleet
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import time_paths
 from viaspline.mission.fleet.fleet import FleetMember

@@ -9,8 +9,9 @@ import pytest
 
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.rerouted_fleet import rerouted_fleet
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan

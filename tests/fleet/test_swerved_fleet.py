@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 import viaspline as vs
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.swerving import may_swerve
 from viaspline.fleet.swerved_fleet import swerved_fleet
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.kernels.arrays import Floats
 from viaspline.planner import Plan
 

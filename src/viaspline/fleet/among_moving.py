@@ -11,9 +11,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from viaspline.fleet.fleet_certificate import certify_fleet
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.relay_paths import relay_paths
 from viaspline.fleet.relaid_fleet import ROOMS_M, driven_alone
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.time_paths import Timing
 from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
 from viaspline.mission.fleet.fleet import Fleet

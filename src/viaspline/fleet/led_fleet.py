@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.late_share import WELL_SERVED_SHARE, late_share
 from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_order
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.laying.alone_paths import AlonePaths
 from viaspline.fleet.laying.resting_places import all_rests
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.fleet.fleet import Fleet, FleetMember

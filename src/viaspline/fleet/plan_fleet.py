@@ -11,6 +11,7 @@ from viaspline.fleet.among_moving import among_moving, proven_among
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.late_share import arrivals_of
 from viaspline.fleet.laying.alone_paths import AlonePaths, alone_paths
 from viaspline.fleet.laying.laid_pieces import THIS_PROCESS, LayingProgress
@@ -26,7 +27,7 @@ from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_along
 from viaspline.fleet.space.plan_spatial_fleet import plan_spatial_fleet
 from viaspline.fleet.still_world import without_motion
 from viaspline.fleet.swerved_fleet import swerved_fleet
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.time_paths import MANY
 from viaspline.fleet.unserved.explain_unserved import explain_unserved
 from viaspline.formats.asked_for import AskedFleet, asked_fleet

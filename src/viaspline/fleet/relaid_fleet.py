@@ -18,9 +18,10 @@ from viaspline.fleet.courses import courses_of
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws, static_laws
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.lay_round_stretch import laying_cost
 from viaspline.fleet.laying.relay_paths import relay_paths
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import Timing
 from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders

@@ -8,11 +8,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from viaspline.fleet.crossing_paths import CrossingPaths
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.alone_paths import AlonePaths
 from viaspline.fleet.led_fleet import is_dense, led_at_once, led_fleet, may_be_led_sooner
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.unserved.pair_refusal import cannot_both_be_served
 from viaspline.mission.fleet.fleet import Fleet
 

@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.resting_places import RestingPlaces
 from viaspline.fleet.laying.swerving import bend_of, kept_distances, swerved
 from viaspline.fleet.sampled_paths import grid_of_rests, grid_of_samples, samples_of
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.reckoned_waits import BETWEEN_M
 from viaspline.kernels.fleet.swerves_sought import SAVED, Swervers, X, swerves_sought

@@ -14,9 +14,10 @@ from viaspline.fleet.crossing_paths import crossing_paths
 from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
 from viaspline.fleet.execution.fleet_navigator import FleetNavigator
 from viaspline.fleet.execution.simulate_fleet import simulate_fleet
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.plan_fleet import plan_fleet
 from viaspline.fleet.swerved_fleet import swerved_fleet
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.route_spec import Route
 from viaspline.warming.mission_kind import MissionKind

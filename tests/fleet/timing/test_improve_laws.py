@@ -8,7 +8,8 @@ import pytest
 import viaspline as vs
 from viaspline.fleet.crossing_paths import crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.fleet_ways import FleetWays
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.kernels.fleet.passing_order import passing_gaps
 
 

@@ -9,7 +9,8 @@ import pytest
 
 import viaspline as vs
 from viaspline.fleet.crossing_paths import crossing_paths
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.fleet_ways import FleetWays
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.time_paths import time_paths
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 

@@ -16,6 +16,7 @@ import numpy as np
 from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.rest_in_the_way import rest_in_the_way
 from viaspline.fleet.laying.resting_places import rests_of
 from viaspline.fleet.patrols.driven_laps import (
@@ -39,7 +40,7 @@ from viaspline.fleet.patrols.take_off_first import (
 )
 from viaspline.fleet.patrols.timed_ascents import timed_ascents
 from viaspline.fleet.space.hover_places import hover_in_the_way, hovers_of
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.time_paths import copied_laws
 from viaspline.kernels.arrays import Flags
 from viaspline.mission.fleet.fleet import FleetMember

@@ -15,9 +15,9 @@ from typing import Final
 import numpy as np
 
 from viaspline.errors import PlanningError
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.space.lay_in_space import KEPT_MORE_M
 from viaspline.fleet.space.ways_past_moving import WaysPastMoving
-from viaspline.fleet.timed_fleet import FleetWays
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.capsule import Capsule
 from viaspline.mission.shapes.obstacle import Obstacle

@@ -15,6 +15,7 @@ from typing import Final
 from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.laying_workers import LayingWorkers
 from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
@@ -28,7 +29,7 @@ from viaspline.fleet.space.timed_past_moving import (
     timed_past_moving,
 )
 from viaspline.fleet.space.ways_past_moving import WaysPastMoving
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.space.spatial_plan import SpatialPlan
 

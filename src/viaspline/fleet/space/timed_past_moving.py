@@ -11,8 +11,9 @@ from typing import Final
 
 from viaspline.errors import GaveUpError
 from viaspline.fleet.among_moving import ENDLESS
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.space.ways_past_moving import WaysPastMoving, hold_of
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.space.among.moving_solid import MovingSolid
 from viaspline.space.among.timed_past import WATCHED_S, WATCHED_SHARE, proven_beside

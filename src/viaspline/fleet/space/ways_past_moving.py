@@ -17,8 +17,8 @@ import numpy as np
 
 from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.space.courses_with_moving import CoursesWithMoving
-from viaspline.fleet.timed_fleet import FleetWays
 from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.time_paths import Timing, time_paths
 from viaspline.kernels.arrays import Floats
