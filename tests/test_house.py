@@ -78,6 +78,16 @@ def test_tests_stand_where_their_files_do() -> None:
         assert test.parent.relative_to(ROOT / "tests").as_posix() in rooms
 
 
+def test_every_room_is_on_the_map_of_the_house() -> None:
+    """By its path or, where it is told of with the room that it is in, by its name."""
+    told = (ROOT / "docs" / "house.md").read_text()
+    rooms = {path.parent.relative_to(SOURCE) for path in FILES} - {Path()}
+    assert not [
+        room.as_posix() for room in sorted(rooms)
+        if f"`{room.as_posix()}/`" not in told and f"`{room.name}/`" not in told
+    ]  # fmt: skip
+
+
 def test_nothing_is_planned_where_tests_are_imported(
     loaded_to_collect: frozenset[LoadedKernel],
 ) -> None:
