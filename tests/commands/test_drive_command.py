@@ -11,7 +11,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "links" / "mavlink"))
-from pymavlink_vehicle import COPTER, PymavlinkVehicle, VehicleOnUdp, free_udp_port
+from pymavlink_vehicle import COPTER, PymavlinkVehicle
+from vehicle_on_udp import VehicleOnUdp, free_udp_port
 
 from viaspline.cli import cli
 

@@ -10,7 +10,8 @@ import shapely
 from click.testing import CliRunner, Result
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "links" / "mavlink"))
-from pymavlink_vehicle import PX4, PymavlinkVehicle, VehicleOnUdp, free_udp_port, metres_per_degree
+from pymavlink_vehicle import PX4, PymavlinkVehicle, metres_per_degree
+from vehicle_on_udp import VehicleOnUdp, free_udp_port
 
 from viaspline.cli import cli
 

@@ -7,13 +7,8 @@ three seconds after the last command.
 
 from __future__ import annotations
 
-import contextlib
 import math
 import os
-import random
-import socket
-import threading
-import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -317,63 +312,6 @@ class PymavlinkVehicle:
         self.up = max(self.up + self.climb * TICK_S, 0.0)
 
 
-class SimulatedLink:
-    """A transport whose time passes only while somebody reads; it may lose what it carries."""
-
-    def __init__(self, *vehicles: PymavlinkVehicle, loss: float = 0.0, seed: int = 0) -> None:
-        self.vehicles, self.loss = vehicles, loss
-        self.random = random.Random(seed)
-        self.time = 0.0
-        self.is_up, self.is_broken = True, False
-        self.events: list[tuple[float, Callable[[], object]]] = []
-        self.waiting = b""
-
-    def now(self) -> float:
-        return self.time
-
-    def at(self, time: float, happens: Callable[[], object]) -> None:
-        """Have something happen at a time [s]."""
-        self.events.append((time, happens))
-
-    def _lost(self) -> bool:
-        return not self.is_up or self.random.random() < self.loss
-
-    def read(self, timeout: float) -> bytes:
-        if self.is_broken:
-            raise ConnectionResetError("the other end has closed the connection")
-        self.sleep(timeout)
-        data, self.waiting = self.waiting, b""
-        return data
-
-    def sleep(self, timeout: float) -> None:
-        """Until something has come, or that time has passed [s]."""
-        end = self.time + max(timeout, TICK_S)
-        while self.time < end - 1e-9:
-            self.time += TICK_S
-            due = [happens for time, happens in self.events if time <= self.time]
-            self.events = [event for event in self.events if event[0] > self.time]
-            for happens in due:
-                happens()
-            for vehicle in self.vehicles:
-                vehicle.tick()
-                said = vehicle.taken()
-                self.waiting += b"" if self._lost() else said
-            if self.waiting:
-                break
-
-    def write(self, data: bytes) -> None:
-        if self.is_broken:
-            raise BrokenPipeError("the other end has closed the connection")
-        for vehicle in self.vehicles:
-            if not self._lost():
-                vehicle.receive(data)
-                said = vehicle.taken()
-                self.waiting += b"" if self._lost() else said
-
-    def close(self) -> None:
-        self.is_up = False
-
-
 def items_like(count: int, kind: int = 0) -> Sequence[Any]:
     """Way points in a row, as pymavlink has them."""
     return [
@@ -382,43 +320,3 @@ def items_like(count: int, kind: int = 0) -> Sequence[Any]:
         )
         for k in range(count)
     ]
-
-
-class VehicleOnUdp(threading.Thread):
-    """A vehicle in real time that speaks to a port, until it is stopped."""
-
-    def __init__(self, vehicle: PymavlinkVehicle, port: int) -> None:
-        super().__init__(daemon=True)
-        self.vehicle, self.port, self.is_over = vehicle, port, threading.Event()
-
-    def run(self) -> None:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as link:
-            link.bind(("127.0.0.1", 0))
-            link.setblocking(False)
-            began, ticks = time.monotonic(), 0
-            while not self.is_over.is_set():
-                while ticks * TICK_S < time.monotonic() - began:
-                    self.vehicle.tick()
-                    ticks += 1
-                with contextlib.suppress(BlockingIOError, ConnectionRefusedError):
-                    while True:
-                        self.vehicle.receive(link.recv(4096))
-                said = self.vehicle.taken()
-                if said:
-                    with contextlib.suppress(ConnectionRefusedError):
-                        link.sendto(said, ("127.0.0.1", self.port))
-                time.sleep(0.004)
-
-    def __enter__(self) -> VehicleOnUdp:
-        self.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.is_over.set()
-        self.join()
-
-
-def free_udp_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])

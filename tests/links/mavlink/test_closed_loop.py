@@ -19,8 +19,8 @@ from pymavlink_vehicle import (
     PX4,
     ROVER,
     PymavlinkVehicle,
-    SimulatedLink,
 )
+from simulated_link import SimulatedLink
 
 from viaspline.formats.local_frame import LocalFrame
 from viaspline.links.mavlink.conversation import Conversation

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 sys.path.insert(0, str(Path(__file__).parent))
-from pymavlink_vehicle import ARDUPILOT, PX4, PymavlinkVehicle, SimulatedLink, items_like
+from pymavlink_vehicle import ARDUPILOT, PX4, PymavlinkVehicle, items_like
+from simulated_link import SimulatedLink
 
 from viaspline.errors import LinkError
 from viaspline.links.mavlink.common_messages import Heartbeat, MissionItemInt

@@ -1,6 +1,6 @@
 """A vehicle before it is driven: what it says is asked for, and waited for.
 
-Tested through ``links/mavlink/test_vehicle_drive``.
+Tested through ``links/mavlink/test_vehicle_runner``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What a vehicle is asked for: messages, modes, arming, a take-off.
 
-Tested through ``links/mavlink/test_vehicle_drive``.
+Tested through ``links/mavlink/test_vehicle_drive`` and ``links/mavlink/test_vehicle_runner``.
 """
 
 from __future__ import annotations

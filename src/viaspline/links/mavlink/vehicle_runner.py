@@ -1,7 +1,4 @@
-"""The loop around a drive: it reads the clock, moves messages, and always leaves a vehicle stopped.
-
-Tested through ``links/mavlink/test_vehicle_drive`` and ``links/mavlink/test_closed_loop``.
-"""
+"""The loop around a drive: it reads the clock, moves messages and leaves the vehicle stopped."""
 
 from __future__ import annotations
 
