@@ -1,7 +1,4 @@
-"""``fleet.json`` as it is read again.
-
-Tested through ``fleet/saved/test_load_fleet_plan``.
-"""
+"""``fleet.json`` as it is read again."""
 
 from __future__ import annotations
 

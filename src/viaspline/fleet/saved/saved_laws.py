@@ -1,6 +1,6 @@
 """Courses and laws of a saved fleet, held against the paths and laws of its robots.
 
-Tested through ``fleet/saved/test_load_fleet_plan``.
+Tested through ``fleet/saved/test_load_fleet_plan`` and ``fleet/saved/test_fleet_file``.
 """
 
 from __future__ import annotations

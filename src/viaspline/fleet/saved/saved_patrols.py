@@ -1,6 +1,6 @@
 """What a saved fleet says of its patrols: that all comes again after a period.
 
-Tested through ``fleet/saved/test_load_fleet_plan``.
+Tested through ``fleet/saved/test_load_fleet_plan`` and ``fleet/saved/test_fleet_file``.
 """
 
 from __future__ import annotations
