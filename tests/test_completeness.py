@@ -6,7 +6,9 @@
 from __future__ import annotations
 
 import math
+import sys
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,21 +16,18 @@ import pytest
 import shapely
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from scipy.ndimage import label
 
+sys.path.insert(0, str(Path(__file__).parent))
 import viaspline as vs
+from mazes import concave_rings, random_cells, rooms_with_doors, thin_walls
+from ways_by_areas import Place, core_of, least_room, roomy_places, squares_of, truth
 
-Place = tuple[float, float]
-MARGIN_M = 5e-4  # by which the oracle grows a world more and less than is required
 SPARE_M = 2e-3  # of the room at start and goal, beyond what is required
 TOLERANCE_M = 2e-5  # of a proof and of the chords that stand for a path
-ARC_SEGMENTS = 64  # of a quarter of a circle
+LONGER = 1e-4  # what a path may be than a fatter robot's, where the shortest is asked for
 
 seeds = st.integers(0, 2**32 - 1)
-
-
-LONGER = 1e-4  # what a path may be than a fatter robot's, where the shortest is asked for
 
 
 def planned(
@@ -52,82 +51,6 @@ def planned(
         return None
 
 
-def core_of(obstacle: dict[str, Any]) -> tuple[Any, float]:
-    """An obstacle as shapely has it, and by how much that is to be grown [m]."""
-    if "circle" in obstacle:
-        return shapely.Point(obstacle["circle"]["center"]), obstacle["circle"]["radius"]
-    if "capsule" in obstacle:
-        line = obstacle["capsule"]
-        return shapely.LineString([line["from"], line["to"]]), line["radius"]
-    return shapely.Polygon(obstacle["polygon"]), 0.0
-
-
-def squares_of(cells: NDArray[np.bool_]) -> list[tuple[Any, float]]:
-    """Blocked cells of 1 m."""
-    y, x = np.nonzero(cells)
-    return [(square, 0.0) for square in shapely.box(x, y, x + 1, y + 1)]
-
-
-def free_area(
-    cores: list[tuple[Any, float]], bounds: tuple[float, ...], required: float, *, grown: float
-) -> Any:
-    """What keeps a distance, with arcs whose radii are ``grown`` times as large."""
-    x0, y0, x1, y1 = bounds
-    inside = shapely.box(x0 + required, y0 + required, x1 - required, y1 - required)
-    blocked = [
-        shapely.buffer(core, grown * (r + required), quad_segs=ARC_SEGMENTS) for core, r in cores
-    ]
-    return shapely.difference(inside, shapely.union_all(blocked))
-
-
-def is_joined(area: Any, ends: list[Place]) -> bool:
-    parts = shapely.get_parts(area)
-    a, b = shapely.points(ends)
-    return bool((shapely.covers(parts, a) & shapely.covers(parts, b)).any())
-
-
-def truth(
-    cores: list[tuple[Any, float]], bounds: tuple[float, ...], required: float, ends: list[Place]
-) -> bool | None:
-    """Whether there is a way; None where that can't be told."""
-    outside = 1.0 / math.cos(1.5 * math.pi / (4 * ARC_SEGMENTS))  # arcs round the true ones
-    if is_joined(free_area(cores, bounds, required + MARGIN_M, grown=outside), ends):
-        return True
-    if not is_joined(free_area(cores, bounds, required - MARGIN_M, grown=1.0), ends):
-        return False
-    return None
-
-
-def roomy_places(
-    random: np.random.Generator,
-    cores: list[tuple[Any, float]],
-    bounds: tuple[float, ...],
-    room: float,
-) -> list[Place]:
-    """Two random places with room, or fewer."""
-    at = random.uniform(bounds[:2], bounds[2:], (60, 2))
-    x0, y0, x1, y1 = bounds
-    found = np.minimum(at - (x0, y0), np.array((x1, y1)) - at).min(axis=1)
-    for core, radius in cores:
-        found = np.minimum(found, shapely.distance(core, shapely.points(at)) - radius)
-    return [(float(x), float(y)) for x, y in at[found >= room][:2]]
-
-
-def least_room(plan: vs.Plan, cores: list[tuple[Any, float]], bounds: tuple[float, ...]) -> float:
-    """Distance of a path from the world, by shapely on chords [m]."""
-    spans = np.asarray(plan.path.spans)
-    u = np.linspace(0.0, 1.0, 201)[:, None, None]
-    b0, b1, b2, b3 = np.moveaxis(spans[:, :, :2], 1, 0)
-    points = (1 - u) ** 3 * b0 + 3 * u * (1 - u) ** 2 * b1 + 3 * u * u * (1 - u) * b2 + u**3 * b3
-    lines = shapely.linestrings(np.moveaxis(points, 0, 1))
-    edge = shapely.distance(shapely.box(*bounds).exterior, lines).min()
-    solids, radii = np.array([core for core, _ in cores]), np.array([r for _, r in cores])
-    (core, _), gaps = shapely.STRtree(lines).query_nearest(
-        solids, all_matches=False, return_distance=True
-    )
-    return float(min(edge, (gaps - radii[core]).min()))
-
-
 def check(
     known: list[Any],
     cores: list[tuple[Any, float]],
@@ -142,11 +65,6 @@ def check(
     if found is not None:
         assert found.certificate.holds
         assert least_room(found, cores, bounds) >= required - TOLERANCE_M
-
-
-def random_cells(seed: int, aside: int, share: float) -> NDArray[np.bool_]:
-    blocked: NDArray[np.bool_] = np.random.default_rng(seed).random((aside, aside)) < share
-    return blocked
 
 
 @given(seeds, st.sampled_from((0.2, 0.3, 0.35, 0.4)), st.floats(0.05, 0.49))
@@ -186,47 +104,6 @@ def test_a_robot_wider_than_a_cell_passes_wherever_the_grown_cells_leave_a_way(
     check(known, cores, bounds, required, ends, bool(is_open))
 
 
-def rooms_with_doors(random: np.random.Generator) -> tuple[list[dict[str, Any]], float, float]:
-    """Rooms of 6 m, doors in most of their walls, some a little too narrow for the robot.
-
-    Returns:
-        The walls, what the robot keeps from them, and how wide the world is [m].
-    """
-    aside, rooms, half = 6.0, int(random.integers(2, 5)), float(random.choice((0.05, 0.15)))
-    required = float(random.uniform(0.15, 0.6))
-    walls: list[dict[str, Any]] = []
-
-    def wall(flipped: bool, across: float, begin: float, end: float) -> None:
-        box = [(begin, across - half), (end, across - half), (end, across + half),
-               (begin, across + half)]  # fmt: skip
-        walls.append({"polygon": [[y, x] if flipped else [x, y] for x, y in box]})
-
-    for i, j, flipped in np.ndindex(rooms, rooms - 1, 2):
-        begin, across = aside * i, aside * (j + 1)
-        wider = float(random.choice((-1, 1, 1))) * 10 ** random.uniform(-2.5, -0.3)
-        door = max(2.0 * required + wider, 0.05)
-        left = float(random.uniform(0.3, aside - door - 0.3))
-        if random.random() < 0.2:
-            wall(bool(flipped), across, begin, begin + aside)
-        else:
-            wall(bool(flipped), across, begin, begin + left)
-            wall(bool(flipped), across, begin + left + door, begin + aside)
-    return walls, required, aside * rooms
-
-
-def concave_rings(random: np.random.Generator) -> tuple[list[dict[str, Any]], float, float]:
-    """Stars with deep notches, over each other here and there; see ``rooms_with_doors``."""
-    width, rings = 30.0, []
-    for _ in range(int(random.integers(5, 30))):
-        corners = int(random.integers(5, 14))
-        angles = np.sort(random.uniform(0, math.tau, corners))
-        far = random.uniform(0.3, random.uniform(1.0, 5.0), corners)
-        ring = random.uniform(0, width, 2) + (far * np.array((np.cos(angles), np.sin(angles)))).T
-        if shapely.Polygon(ring).is_valid and shapely.Polygon(ring).area > 0.05:
-            rings.append({"polygon": ring.tolist()})
-    return rings, float(random.uniform(0.1, 0.9)), width
-
-
 @settings(max_examples=20)
 @given(
     seeds,
@@ -249,25 +126,19 @@ def test_worlds_of_any_size_that_their_bounds_may_cut_are_passed_where_there_is_
     check(known, cores, bounds, required, ends, bool(is_open))
 
 
-def thin_walls(random: np.random.Generator, width: float) -> list[dict[str, Any]]:
-    """Walls of a few millimetres to centimetres, and discs, at any angle."""
-    obstacles: list[dict[str, Any]] = []
-    for _ in range(int(random.integers(10, 60))):
-        at, angle = random.uniform(0, width, 2), random.uniform(0, math.tau)
-        along = random.uniform(0.5, 3.0) * np.array((math.cos(angle), math.sin(angle)))
-        half = float(random.choice((5e-4, 0.01, 0.05)))
-        across = half * np.array((-math.sin(angle), math.cos(angle)))
-        made = random.integers(3)
-        if made == 0:
-            line = {"from": (at - along).tolist(), "to": (at + along).tolist(), "radius": half}
-            obstacles.append({"capsule": line})
-        elif made == 1:
-            ring = np.array([-along - across, along - across, along + across, -along + across])
-            obstacles.append({"polygon": (at + ring).tolist()})
-        else:
-            size = float(random.uniform(0.05, 0.8))
-            obstacles.append({"circle": {"center": at.tolist(), "radius": size}})
-    return obstacles
+ROOM = (0.0, 0.0, 12.0, 12.0)
+
+
+def between_thin_walls(
+    seed: int, required: float
+) -> tuple[list[dict[str, Any]], list[tuple[Any, float]], list[Place]]:
+    """Thin walls in a room, as missions and as shapely have them, and two places among them."""
+    random = np.random.default_rng(seed)
+    known = thin_walls(random, ROOM[2])
+    cores = [core_of(obstacle) for obstacle in known]
+    ends = roomy_places(random, cores, ROOM, required + SPARE_M)
+    assume(len(ends) == 2)
+    return known, cores, ends
 
 
 @settings(max_examples=20)
@@ -275,14 +146,10 @@ def thin_walls(random: np.random.Generator, width: float) -> list[dict[str, Any]
 def test_a_way_between_thin_walls_is_found_wherever_the_grown_walls_leave_one(
     seed: int, required: float
 ) -> None:
-    random, bounds = np.random.default_rng(seed), (0.0, 0.0, 12.0, 12.0)
-    known = thin_walls(random, 12.0)
-    cores = [core_of(obstacle) for obstacle in known]
-    ends = roomy_places(random, cores, bounds, required + SPARE_M)
-    assume(len(ends) == 2)
-    is_open = truth(cores, bounds, required, ends)
+    known, cores, ends = between_thin_walls(seed, required)
+    is_open = truth(cores, ROOM, required, ends)
     assume(is_open is not None)
-    check(known, cores, bounds, required, ends, bool(is_open))
+    check(known, cores, ROOM, required, ends, bool(is_open))
 
 
 @given(
@@ -331,16 +198,12 @@ def test_a_way_for_a_fat_robot_is_one_for_a_thinner_one_and_no_longer(
 @settings(max_examples=10)
 @given(seeds, st.floats(0.05, 0.8))
 def test_between_thin_walls_a_thinner_robot_has_no_longer_way(seed: int, required: float) -> None:
-    random, bounds = np.random.default_rng(seed), (0.0, 0.0, 12.0, 12.0)
-    known = thin_walls(random, 12.0)
-    cores = [core_of(obstacle) for obstacle in known]
-    ends = roomy_places(random, cores, bounds, required + SPARE_M)
-    assume(len(ends) == 2)
-    fat = planned(known, bounds, required, ends, "length")
+    known, _, ends = between_thin_walls(seed, required)
+    fat = planned(known, ROOM, required, ends, "length")
     assume(fat is not None)
     assert fat is not None
     for share in (0.1, 0.5, 0.8, 0.95):
-        thin = planned(known, bounds, share * required, ends, "length")
+        thin = planned(known, ROOM, share * required, ends, "length")
         assert thin is not None
         assert thin.path.length <= fat.path.length * (1.0 + LONGER)
 
@@ -379,13 +242,9 @@ def test_round_the_tips_of_teeth_a_thinner_robot_has_no_longer_way(
 def test_a_refusal_names_a_gap_as_wide_as_it_is_and_remedies_that_serve(
     seed: int, required: float
 ) -> None:
-    random, bounds = np.random.default_rng(seed), (0.0, 0.0, 12.0, 12.0)
-    known = thin_walls(random, 12.0)
-    cores = [core_of(obstacle) for obstacle in known]
-    ends = roomy_places(random, cores, bounds, required + SPARE_M)
-    assume(len(ends) == 2)
+    known, cores, ends = between_thin_walls(seed, required)
     asked = {
-        "world": {"bounds": bounds, "known": known},
+        "world": {"bounds": ROOM, "known": known},
         "robot": {"radius_m": 0.1 * required, "clearance_m": 0.9 * required},
         "route": {"start": {"at": ends[0]}, "goal": {"at": ends[1]}},
     }
@@ -397,7 +256,7 @@ def test_a_refusal_names_a_gap_as_wide_as_it_is_and_remedies_that_serve(
         where = shapely.Point(refusal.where[:2])
     if "m of room" in words:
         told = float(words.split(" m of room")[0].split()[-1])
-        edge = shapely.distance(shapely.box(*bounds).exterior, where)
+        edge = shapely.distance(shapely.box(*ROOM).exterior, where)
         room = min([float(edge), *(shapely.distance(core, where) - r for core, r in cores)])
         assert told == pytest.approx(2.0 * room, abs=1e-3)
     for change in changes:
