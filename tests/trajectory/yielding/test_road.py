@@ -37,3 +37,18 @@ def test_a_straight_path_is_one_chord_a_span_and_a_bent_one_as_many_as_it_needs(
     )
     few, many = (len(Road.of(path).tree.misses) for path in (gentle, sharp))
     assert 8 <= few < many <= 1024
+
+
+def test_a_sharp_bend_makes_short_chords_only_where_it_is() -> None:
+    hook = CardinalSpline([(0, 0), (100, 0), (100.02, 0.01), (100, 0.02), (0, 30)])
+    road = Road.of(hook)
+    assert road.bend > 10.0
+    assert len(road.tree.misses) < 1000
+    assert road.tree.misses[np.diff(road.tree.along) > 0.1].max() < 0.001
+    s = np.linspace(0.0, hook.length, 5000)
+    leaf = np.clip(np.searchsorted(road.tree.along, s, side="right") - 1, 0, None)
+    leaf = np.minimum(leaf, len(road.tree.misses) - 1)
+    begin, end = road.tree.points[leaf], road.tree.points[leaf + 1]
+    share = (s - road.tree.along[leaf]) / np.diff(road.tree.along)[leaf]
+    off = np.hypot(*(begin + share[:, None] * (end - begin) - hook.at_distance(s)).T)
+    assert (off <= road.tree.misses[leaf] + 1e-9).all()
