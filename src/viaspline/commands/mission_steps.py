@@ -28,6 +28,7 @@ from viaspline.report.terminal_lines import say_error
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
+    from viaspline.robot.run import Run
 
 
 def check_mission(mission: Mission) -> list[tuple[str, str]]:
@@ -121,12 +122,18 @@ def run_mission(
         show(plan_tables(plan, file.stem), run_tables(done, file.stem))
         say_remarks(asked, plan)
         say_written([*files, *(one.path for one in (film, log) if one is not None)])
-    if not done.reached:
-        from viaspline.report.units import place, seconds
+    _end_not_reached(done)
 
-        where = place(tuple(done.positions[-1].tolist()))
-        say_error(
-            f"the robot did not reach its goal: {done.reason}",
-            f"  it stands at {where} since {seconds(done.duration)}",
-        )
-        click.get_current_context().exit(NOT_REACHED)
+
+def _end_not_reached(done: Run) -> None:
+    """Say why a robot did not reach its goal, if it didn't, and end with the code for it."""
+    if done.reached:
+        return
+    from viaspline.report.units import place, seconds
+
+    where = place(tuple(done.positions[-1].tolist()))
+    say_error(
+        f"the robot did not reach its goal: {done.reason}",
+        f"  it stands at {where} since {seconds(done.duration)}",
+    )
+    click.get_current_context().exit(NOT_REACHED)

@@ -17,7 +17,7 @@ import numpy as np
 from viaspline.fleet.execution.carried_over import let_in_too_early
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.dwells import FleetStations
-from viaspline.fleet.execution.fleet_orders import orders_led
+from viaspline.fleet.execution.fleet_orders import FleetOrders, orders_led
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
@@ -53,24 +53,9 @@ def rolled_over(
     served = state.stations - _passed(stations, since, since + shift)
     if (served < 0).any():
         return state  # one still stands where its next lap begins, for as long as it has to
-    planned = state.orders.leaders
-    leaders, by_second = planned.copy(), state.orders.by_second.copy()
-    for c, was in _a_period_later(fleet, since, shift).items():
-        leader = int(state.packed.leaders[was])
-        if leader >= 0:
-            is_planned = leader == planned[was]
-            leaders[c] = leader
-            by_second[c] = bool(state.orders.by_second[was]) if is_planned else True
-    come = state.packed.progress - shift
-    short, promised = state.orders.packed.short, state.packed.promised - shift
-    orders = orders_led(fleet, leaders, by_second, short, come)
-    let_in = let_in_too_early(orders, promised, come)
-    if let_in:  # beyond where the crossing begins in this lap
-        for c, robot in let_in.items():
-            leaders[c], by_second[c] = robot, True
-        orders = orders_led(fleet, leaders, by_second, short, come)
-        if let_in_too_early(orders, promised, come):
-            return state  # both are in it by the wider cells of this lap: later, then
+    orders = _orders_later(state, fleet, since, shift)
+    if orders is None:
+        return state
     new = FleetProgressState.at_start(fleet, orders)
     packed = new.packed
     for now, was_there in zip(packed[1:], state.packed[1:], strict=True):
@@ -99,6 +84,41 @@ def rolled_over(
         stops_at=state.stops_at - shift,
         events=state.events,
     )
+
+
+def _orders_later(
+    state: FleetProgressState, fleet: DrivenFleet, since: Floats, shift: Floats
+) -> FleetOrders | None:
+    """The orders that hold when all are counted back; None where it is too soon for that.
+
+    Args:
+        state: How far the fleet has come.
+        fleet: What is driven.
+        since: Where the first lap of each robot begins [m], (n,).
+        shift: By how much each is counted back [m], (n,).
+
+    Raises:
+        GeometryError: The orders have a cycle.
+    """
+    planned = state.orders.leaders
+    leaders, by_second = planned.copy(), state.orders.by_second.copy()
+    for c, was in _a_period_later(fleet, since, shift).items():
+        leader = int(state.packed.leaders[was])
+        if leader >= 0:
+            is_planned = leader == planned[was]
+            leaders[c] = leader
+            by_second[c] = bool(state.orders.by_second[was]) if is_planned else True
+    come = state.packed.progress - shift
+    short, promised = state.orders.packed.short, state.packed.promised - shift
+    orders = orders_led(fleet, leaders, by_second, short, come)
+    let_in = let_in_too_early(orders, promised, come)
+    if let_in:  # beyond where the crossing begins in this lap
+        for c, robot in let_in.items():
+            leaders[c], by_second[c] = robot, True
+        orders = orders_led(fleet, leaders, by_second, short, come)
+        if let_in_too_early(orders, promised, come):
+            return None  # both are in it by the wider cells of this lap: later, then
+    return orders
 
 
 def _is_over(state: FleetProgressState, rounds: Floats, since: Floats) -> bool:
