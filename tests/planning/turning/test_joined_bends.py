@@ -88,7 +88,7 @@ def test_corners_close_together_on_one_side_are_joined() -> None:
         pytest.param("swing", id="one may not swing out"),
     ],
 )
-def test_others_are_not(unlike: str) -> None:
+def test_bends_that_are_unlike_in_one_of_these_ways_are_not_joined(unlike: str) -> None:
     bends = pair(1.5, (0.7, 0.7), 1.0, 0.0)
     if unlike == "side":
         rows = bends.rows.copy()
