@@ -1,40 +1,19 @@
 """Which sides a plan takes and what it says of the others; what it refuses, and the remedy."""
 
 import math
-from collections.abc import Callable
+import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+sys.path.insert(0, str(Path(__file__).parent))
 import viaspline as vs
+from asked_missions import BOUNDS, Oracle, clear, disc, mission
 from viaspline.planning.plan_path import find_path
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
-
-Oracle = Callable[..., Any]
-BOUNDS = [0, 0, 100, 100]
-
-
-def disc(x: float, y: float, radius: float, **more: Any) -> dict[str, Any]:
-    return {"circle": {"center": [x, y], "radius": radius}, **more}
-
-
-def mission(
-    *stops: Any,
-    known: Any = (),
-    bounds: Any = None,
-    robot: Any = None,
-    **more: Any,
-) -> vs.Mission:
-    world: dict[str, Any] = {"known": list(known)}
-    if bounds:
-        world["bounds"] = bounds
-    route: dict[str, Any] = {"start": stops[0], "via": list(stops[1:-1]), "goal": stops[-1]}
-    data = {"world": world, "route": route, **more}
-    if robot:
-        data["robot"] = robot
-    return vs.Mission.model_validate(data)
 
 
 def refused(wanted: vs.Mission) -> vs.NoPathError:
@@ -43,17 +22,6 @@ def refused(wanted: vs.Mission) -> vs.NoPathError:
     assert caught.value.reason
     assert caught.value.remedy
     return caught.value
-
-
-def clear(found: vs.Plan, oracle: Oracle, required: float = 1.0) -> None:
-    """The certificate holds, and shapely agrees on a dense sampling of the curve."""
-    assert found.certificate.holds
-    end = found.path.domain[1]
-    points = found.path.evaluate(np.linspace(0, end, int(400 * end) + 1))[:, :2]
-    spec = found.mission.world
-    least = oracle(points, spec.known, spec.bounds, spec.fences).min()
-    assert least >= required - 2e-6
-    assert found.certificate.clearance <= least - found.mission.robot.radius_m + 1e-9
 
 
 # The ledger
