@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_messages import ProgressReport
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent
-from viaspline.fleet.execution.judged_reports import judged
+from viaspline.fleet.execution.judged_reports import KnownFleet, judged
 from viaspline.kernels.arrays import Floats, Ints
 
 
@@ -26,7 +27,7 @@ def believed(
     Args:
         fleet: What is driven.
         state: How far it has come; who was heard, has arrived and how fast it is are written to.
-        reports: In any order.
+        reports: In any order; those of patrols with distances over all laps.
         margin: How much farther than it says a robot has to be [m].
 
     Returns:
@@ -36,7 +37,8 @@ def believed(
     """
     known, robots, rows = state.known(fleet), [], []
     events: list[FleetEvent] = []
-    for report in sorted(reports, key=_by_time):
+    counted = [_counted(report, known, state.driven) for report in reports]
+    for report in sorted(counted, key=_by_time):
         event = judged(report, known, state.time)
         if event is not None:
             events.append(event)
@@ -59,6 +61,16 @@ def believed(
         holds, heard = (report.holds, report.heard) if says else (0.0, -math.inf)
         rows.append((report.time, place, holds, heard))
     return np.array(robots, np.int64), np.array(rows, float).reshape(-1, 4), events
+
+
+def _counted(report: ProgressReport, known: KnownFleet, driven: Floats) -> ProgressReport:
+    """A report of a patrol with distances from where those of its plan begin."""
+    robot = known.names.get(report.name)
+    past = 0.0 if robot is None else float(driven[robot])
+    if past == 0.0:
+        return report
+    holds = None if report.holds is None else report.holds - past
+    return replace(report, distance=report.distance - past, holds=holds)
 
 
 def _by_time(report: ProgressReport) -> tuple[float, str]:

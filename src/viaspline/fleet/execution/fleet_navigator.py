@@ -24,7 +24,6 @@ from viaspline.fleet.execution.ways_from_rest import FleetMissions, check_member
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.still_world import check_still
 from viaspline.handed_in import all_of, check_kind, number_from, time_from
-from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.dispatching import dispatch_step
 from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.mission.fleet.fleet import FleetMember
@@ -164,8 +163,7 @@ class FleetNavigator:
         given = all_of("reports", reports, ProgressReport, "give ProgressReport(name, time, …)")
         fleet, state = self._fleet, self._state.copied(time)
         packed, orders = state.packed, state.orders.packed
-        counted = [_counted(one, fleet, state.driven) for one in given]
-        robots, table, events = believed(fleet, state, counted, self._margin)
+        robots, table, events = believed(fleet, state, given, self._margin)
         dwell(self._stations, state, self._short)
         before = packed.leaders.copy()
         swaps = np.isfinite(self._state.time) and floor(time) > floor(self._state.time)
@@ -378,17 +376,6 @@ class FleetNavigator:
         if self._fleet.rounds is not None:
             arrive[self._fleet.rounds > 0.0] = np.inf
         return dict(zip(self.names, arrive.tolist(), strict=True))
-
-
-def _counted(report: ProgressReport, fleet: DrivenFleet, driven: Floats) -> ProgressReport:
-    """A report of a patrol with distances from where those of its plan begin."""
-    if report.name not in fleet.names:
-        return report
-    past = float(driven[fleet.names.index(report.name)])
-    if past == 0.0:
-        return report
-    holds = None if report.holds is None else report.holds - past
-    return replace(report, distance=report.distance - past, holds=holds)
 
 
 def _length(name: str, value: float) -> float:
