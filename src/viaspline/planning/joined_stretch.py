@@ -22,6 +22,7 @@ from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.departure import (
     BlockedTurnError,
+    Departure,
     Leave,
     refuse_blocked_turn,
     rolling,
@@ -29,8 +30,9 @@ from viaspline.planning.departure import (
 from viaspline.planning.nearby import lay_nearby
 from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.rejoining import Rejoin, merging
+from viaspline.planning.rejoining import Rejoin, Rejoining, merging
 from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.planning.sides_ahead import refuse_wrong_side
 from viaspline.planning.stretch import (
@@ -117,21 +119,11 @@ def _join(
     reach: float,
     until: float,
 ) -> Solution:
+    """The path with the stretch laid anew, left and taken up again; proven where it is new."""
     departure = leave(path, stretch, world, requirements, reach)
     tail = stretch.tail
     rejoining = None if tail is None else rejoin_by(path, stretch, tail, world, requirements, reach)
-    meet = None if rejoining is None else rejoining.end
-    sequence = replace(
-        sequence_through(path, departure.start, stretch, requirements, meet),
-        start_tangent=departure.tangent,
-    )
-    if len(departure.spans):
-        refuse_wrong_side(departure.spans, sequence.whole_leg(0), world, requirements)
-    if rejoining is not None:
-        if len(rejoining.spans):
-            last_leg = sequence.whole_leg(len(sequence.legs) - 1)
-            refuse_wrong_side(rejoining.spans, last_leg, world, requirements)
-        sequence = replace(sequence, end_tangent=rejoining.tangent)
+    sequence = _sequence_between(path, departure, rejoining, stretch, world, requirements)
     if tail is None:
         spline_path, account = lay_path(sequence, world, requirements)
     else:
@@ -163,6 +155,30 @@ def _join(
     certificate = proven(PiecewiseCubic(new.spans[len(head) : last]), world, requirements)
     back_at = None if rejoin is None else float(new.distance(float(rejoin)))
     return solution_from(new, leaving, certificate, account, back_at)
+
+
+def _sequence_between(
+    path: Path, departure: Departure, rejoining: Rejoining | None, stretch: Stretch, world: World,
+    requirements: Requirements,
+) -> ViaSequence:  # fmt: skip
+    """What is laid from a departure to where the path is taken up again, if it is.
+
+    Raises:
+        GaveUpError: When one of both passes something on another side than is asked for.
+    """
+    meet = None if rejoining is None else rejoining.end
+    sequence = replace(
+        sequence_through(path, departure.start, stretch, requirements, meet),
+        start_tangent=departure.tangent,
+    )
+    if len(departure.spans):
+        refuse_wrong_side(departure.spans, sequence.whole_leg(0), world, requirements)
+    if rejoining is None:
+        return sequence
+    if len(rejoining.spans):
+        last_leg = sequence.whole_leg(len(sequence.legs) - 1)
+        refuse_wrong_side(rejoining.spans, last_leg, world, requirements)
+    return replace(sequence, end_tangent=rejoining.tangent)
 
 
 def solution_from(
