@@ -1,10 +1,13 @@
 """Straight lines from proven paths: clear by shapely, near by dense samples, in random worlds."""
 
 import math
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
 import shapely
+import shapely.affinity
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -115,6 +118,30 @@ def test_a_robot_in_a_gap_that_just_fits_gets_lines_that_fit_as_well() -> None:
     drawn = shapely.LineString(lines.points)
     walls = [shapely.Polygon(one["polygon"]) for one in known]
     assert min(drawn.distance(wall) for wall in walls) == pytest.approx(1.0, abs=2e-4)
+
+
+def test_a_long_body_that_turns_in_a_gap_gets_lines_that_end_on_the_path() -> None:
+    known: list[Any] = [
+        {"circle": {"center": [5.289, 0.7389], "radius": 0.5257420122976015}},
+        {"circle": {"center": [4.3668, -1.6191], "radius": 1.152077648573482}},
+    ]
+    corners = [[-0.35, -0.25], [0.35, -0.25], [0.35, 0.25], [-0.35, 0.25]]
+    robot: dict[str, Any] = {"footprint": corners, "clearance_m": 0.15}
+    route = {"start": {"at": [0, 0], "heading_deg": -32.33505040921129},
+             "goal": [10, 1.0226744566367083], "optimise": "length"}  # fmt: skip
+    data = {"world": {"known": known}, "robot": robot, "route": route}
+    planned = plan(Mission.model_validate(data))
+    lines = cut(planned, 0.015)
+    assert lines.holds
+    assert len(lines.points) < 100
+    body = shapely.Polygon(robot["footprint"])
+    discs = [shapely.Point(one["circle"]["center"]) for one in known]
+    for a, b in pairwise(lines.points):
+        turned = shapely.affinity.rotate(body, math.atan2(*(b - a)[::-1]), (0, 0), use_radians=True)
+        for place in (a, b):
+            there = shapely.affinity.translate(turned, *place)
+            for one, disc in zip(known, discs, strict=True):
+                assert there.distance(disc) - one["circle"]["radius"] >= 0.15 - EXPORT_SLACK_M
 
 
 def test_rows_of_short_lines_are_proven_as_each_of_them_is() -> None:

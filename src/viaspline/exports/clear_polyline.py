@@ -31,8 +31,12 @@ _ROW: Final = 32
 
 _MAX_MOVES: Final = 16
 _MAX_ROUNDS: Final = 10
-_STARTS: Final = (1.0, 0.5, 0.25, 0.1)
-"""Of the stated error, what lines are cut with before their corners are moved."""
+_STARTS: Final = ((1.0, 1.0), (0.5, 1.0), (0.25, 1.0), (0.1, 1.0), (0.1, 0.0))
+"""Of the stated error, what lines are cut with, and how far their corners may be moved then.
+
+A polygonal body turns with its lines: where these are short, a corner that is moved swings it
+about, and in a gap that is as wide as it has to be only lines that end on the path itself hold.
+"""
 
 _SHORTEST_M: Final = 1e-3
 """Lines shorter than this aren't cut any more."""
@@ -186,17 +190,22 @@ def clear_polyline(
         The lines; if they don't hold, the last ones that were tried.
     """
     cutting = _Cutting(path, prover, chord_error, acceptance, fixed, breaks, known)
-    for start in _STARTS:
-        found, is_whole = _cut(cutting, start * chord_error, may_join, most)
+    for start, moves in _STARTS:
+        farthest = moves * chord_error
+        found, is_whole = _cut(cutting, start * chord_error, farthest, may_join, most)
         if is_whole or len(found.points) > most:
             break
     return found
 
 
 def _cut(
-    cutting: _Cutting, error: float, may_join: Callable[[float, float], bool], most: int
-) -> tuple[ClearPolyline, bool]:
-    """Lines that are cut with an error, and with less of it where they don't hold."""
+    cutting: _Cutting, error: float, farthest: float, may_join: Callable[[float, float], bool],
+    most: int,
+) -> tuple[ClearPolyline, bool]:  # fmt: skip
+    """Lines that are cut with an error, and with less of it where they don't hold.
+
+    Their corners are moved by no more than ``farthest`` [m].
+    """
 
     def near(error: float) -> Callable[[float, float], bool]:
         def allowed(a: float, b: float) -> bool:
@@ -210,7 +219,7 @@ def _cut(
     u = np.array(sparse_parameters(_ends(cutting), near(error)))
     errors = np.full(len(u) - 1, error)
     for _ in range(_MAX_ROUNDS):
-        found = _moved(cutting, u)
+        found = _moved(cutting, u, farthest)
         failing = _failing(cutting, found)
         if not failing.any():
             return found, True
@@ -246,11 +255,11 @@ def _failing(cutting: _Cutting, found: ClearPolyline) -> Flags:
     return np.asarray(lacks | (bounds > cutting.chord_error))
 
 
-def _moved(cutting: _Cutting, u: Floats) -> ClearPolyline:
+def _moved(cutting: _Cutting, u: Floats, farthest: float) -> ClearPolyline:
     """The lines between places of the path, their corners moved away from what is too near."""
     own = np.asarray(cutting.path.evaluate(u))
     free = ~np.isin(u, cutting.fixed)
-    limit = (1.0 - 1e-9) * cutting.chord_error
+    limit = (1.0 - 1e-9) * farthest
     points = own.copy()
     for _ in range(_MAX_MOVES):
         found = cutting.judged(u, points)
