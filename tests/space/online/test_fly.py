@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -127,3 +129,51 @@ def test_a_body_turns_where_it_stands_and_from_one_path_to_the_next_within_its_r
     there_and_back = fly(plan_spatial(free))
     turned = np.abs(np.angle(np.exp(1j * np.diff(there_and_back.headings))))
     assert np.rad2deg((turned / np.diff(there_and_back.times)).max()) <= 60 * 1.01
+
+
+def ball_ahead(route: dict[str, Any], x: float, reach: float) -> Mission:
+    """A flight along x at a height of 10 m, and something on its way that isn't on the map."""
+    unseen = [{"name": "balloon", "ball": {"center": [x, 0, 10], "radius": 2}}]
+    robot = {"radius_m": 0.5, "clearance_m": 1, "max_speed_mps": 5, "max_accel_mps2": 2,
+             "sensor": {"range_m": reach}}  # fmt: skip
+    world = {"ground": {"flat_m": 0}, "unseen": unseen}
+    return Mission.model_validate({"world": world, "robot": robot, "route": route})
+
+
+def test_what_is_seen_from_the_ground_is_flown_round_once_it_has_taken_off() -> None:
+    route = {
+        "start": {"at": [0, 0], "dwell_s": 2},
+        "takeoff": {"to_agl_m": 10},
+        "goal": [60, 0, 10],
+    }
+    run = fly(plan_spatial(ball_ahead(route, 20.0, 30.0)))
+    assert run.reached
+    assert run.clearance >= 1.0 - 1e-6
+    (replan,) = run.replans
+    at_top = run.times[np.linalg.norm(run.positions - np.array([0, 0, 10]), axis=1) < 1e-6]
+    assert replan.seen_at < at_top[0]
+    assert replan.time == pytest.approx(at_top[0] + 2.0, abs=0.21)
+
+
+def test_what_is_seen_while_it_climbs_into_it_ends_the_flight_below_it() -> None:
+    route = {"start": [0, 0], "takeoff": {"to_agl_m": 20}, "goal": [60, 0, 20]}
+    run = fly(plan_spatial(ball_ahead(route, 1.0, 6.0)))
+    assert not run.reached
+    assert "balloon" in run.reason
+    assert "as near as" not in run.reason  # it saw it in time
+    assert run.clearance >= 1.0 - 1e-6
+    assert run.positions[-1, 2] < 6.6
+
+
+@pytest.mark.parametrize(("at", "reach"), [("start", 20.0), ("via", 13.05)])
+def test_a_station_keeps_its_dwell_where_something_is_seen_from_it(at: str, reach: float) -> None:
+    route: dict[str, Any] = {
+        "start": {"at": [0, 0, 10]}, "via": [{"at": [30, 0, 10]}], "goal": [60, 0, 10],
+    }  # fmt: skip
+    station = route["start"] if at == "start" else route["via"][0]
+    station["dwell_s"] = 6.0
+    run = fly(plan_spatial(ball_ahead(route, 15.0 if at == "start" else 45.0, reach)))
+    assert run.reached
+    assert len(run.replans) == 1
+    there = np.linalg.norm(run.positions - np.array(station["at"]), axis=1) < 1e-6
+    assert np.ptp(run.times[there]) >= 6.0 - 0.21

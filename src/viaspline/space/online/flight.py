@@ -58,6 +58,12 @@ class Flight:
         return self.problems[-1]
 
     @property
+    def climb(self) -> float:
+        """How far the last leg climbs straight up from the ground [m]; 0: it doesn't."""
+        takes_off = self.problem.takeoff is not None
+        return float(self.legs[-1].path.distance(1.0)) if takes_off else 0.0
+
+    @property
     def end_time(self) -> float:
         """When it is over [s]."""
         return min(self.legs[-1].until, self.legs[-1].law.end_time)

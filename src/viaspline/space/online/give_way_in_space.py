@@ -23,13 +23,14 @@ from viaspline.errors import GeometryError
 from viaspline.mission.space.flying_body import FlyingBody
 from viaspline.space.among.moving_solid import MovingSolid
 from viaspline.space.among.timed_past import solids_beside
+from viaspline.space.online.chosen_takeovers import takeovers
 from viaspline.space.online.flight import Flight
 from viaspline.space.online.flight_meeting import FlightMeeting, meeting_in_flight
 from viaspline.space.online.lead_past import ended, still_ahead, taken_over
 from viaspline.space.online.replan_in_space import NewLeg, replan_in_space
 from viaspline.space.online.retimed_ahead import FlightAhead, fastest_ahead, law_past
 from viaspline.space.online.swerves_in_space import swerves
-from viaspline.space.online.takeover import Takeover, braked_takeover, smooth_takeover
+from viaspline.space.online.takeover import Takeover
 from viaspline.space.online.ways_round_moving import ways_round
 from viaspline.space.without_ground import without_ground
 from viaspline.tracks.patience import (
@@ -211,12 +212,11 @@ def _by_another_way(
 def _takeovers(flight: Flight, now: float, ahead: FlightAhead) -> Iterator[Takeover]:
     """Where another path may begin: as fast as the robot is, and slower, but not from a stop."""
     if ahead.speed == 0.0:
-        yield Takeover(ahead.time, ahead.distance, 0.0, ahead.time)
+        stood = ahead.after_dwell(flight.legs[-1])
+        yield Takeover(stood.time, stood.distance, 0.0, stood.time)
         return
-    leg, brake = flight.legs[-1], flight.problem.limits.along.brake
-    yield smooth_takeover(leg, now, brake)
-    for share in SPEED_SHARES:
-        yield braked_takeover(leg, now, brake, share)
+    brake = flight.problem.limits.along.brake
+    yield from takeovers(flight.legs[-1], now, brake, SPEED_SHARES, flight.climb)
 
 
 def _out_of_the_way(flight: Flight, ahead: FlightAhead, others: Sequence[Trajectory]) -> Flight:

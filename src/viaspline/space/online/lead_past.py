@@ -8,6 +8,7 @@ Tested through ``space/online/test_fly``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
@@ -18,14 +19,16 @@ from viaspline.curve.certificate import certify
 from viaspline.mission.model import Mission
 from viaspline.mission.space.flight_places import flight_places
 from viaspline.space.among.timed_past import proven_beside, solids_beside
+from viaspline.space.online.chosen_takeovers import climbs, takeovers
 from viaspline.space.online.flight import Flight
 from viaspline.space.online.flown_leg import FlownLeg
 from viaspline.space.online.replan_in_space import NewLeg, replan_in_space
 from viaspline.space.online.sightings import UnseenSolid
-from viaspline.space.online.takeover import Takeover, braked_takeover, smooth_takeover
+from viaspline.space.online.takeover import Takeover, braked_takeover
 from viaspline.space.spatial_problem import SpatialVia
 from viaspline.space.spatial_request import spatial_world_of
 from viaspline.space.spatial_run import SpatialReplan
+from viaspline.space.without_ground import without_ground
 from viaspline.trajectory.retime import braking
 
 SPEED_SHARES: Final = (0.6, 0.3, 0.0)
@@ -55,10 +58,12 @@ def _led_past(flight: Flight, now: float, names: tuple[str, ...]) -> Flight:
     """A flight on another path from where it can take it up; else one that ends where it stops."""
     known, problem, leg = flight.known, flight.problem, flight.legs[-1]
     brake = problem.limits.along.brake
-    braked = (braked_takeover(leg, now, brake, share) for share in SPEED_SHARES)
-    for begins in (smooth_takeover(leg, now, brake), *braked):
+    is_climbing = climbs(leg, now, flight.climb)
+    for begins in takeovers(leg, now, brake, SPEED_SHARES, flight.climb):
         ahead = still_ahead(flight, begins)
         if not ahead:
+            continue
+        if is_climbing and _nearest_before(flight, now, begins) < problem.clearance:
             continue
         old = ended(leg, begins, brake, known)
         if old.moving is not None and not old.moving.holds:
@@ -164,18 +169,30 @@ def _stopped(flight: Flight, now: float, names: tuple[str, ...]) -> Flight:
 
 def _too_late(flight: Flight, now: float, begins: Takeover) -> str:
     """That it saw something too late to stop with the clearance that is asked for, if it did."""
-    problem, leg, sensor = flight.problem, flight.legs[-1], flight.known.robot.sensor
+    leg, sensor = flight.legs[-1], flight.known.robot.sensor
     here = float(leg.law.distance_at(now))
-    first, last = np.minimum([here, begins.distance], leg.path.length).tolist()
-    if last <= first or sensor is None:
+    nearest = _nearest_before(flight, now, begins)
+    if sensor is None or nearest >= flight.problem.clearance:
         return ""
-    part = leg.path.section(*np.asarray(leg.path.parameter([first, last])).tolist())
-    proof = certify(part, problem.world, problem.clearance, radius=problem.radius)
-    if proof.holds:
-        return ""
-    speed = float(leg.law.speed_at(here))
+    speed, takes = float(leg.law.speed_at(here)), min(begins.distance, leg.path.length) - here
     return (
-        f"; it comes as near as {max(proof.clearance, 0.0):.2f} m, for from {speed:.1f} m/s it "
-        f"takes {last - first:.1f} m to stop, and its sensor sees {sensor.reach:g} m: fly slower, "
+        f"; it comes as near as {max(nearest, 0.0):.2f} m, for from {speed:.1f} m/s it "
+        f"takes {takes:.1f} m to stop, and its sensor sees {sensor.reach:g} m: fly slower, "
         "or give it a longer range_m"
     )
+
+
+def _nearest_before(flight: Flight, now: float, begins: Takeover) -> float:
+    """How near it comes to what is known before a take-over [m]; inf: no nearer than asked for.
+
+    While it climbs from the ground, that doesn't count.
+    """
+    problem, leg = flight.problem, flight.legs[-1]
+    here = float(leg.law.distance_at(now))
+    first, last = np.minimum([here, begins.distance], leg.path.length).tolist()
+    if last <= first:
+        return math.inf
+    part = leg.path.section(*np.asarray(leg.path.parameter([first, last])).tolist())
+    world = without_ground(problem.world) if climbs(leg, now, flight.climb) else problem.world
+    proof = certify(part, world, problem.clearance, radius=problem.radius)
+    return math.inf if proof.holds else proof.clearance
