@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
 
+from viaspline.errors import GaveUpError
 from viaspline.mission.model import Mission
 from viaspline.space.asked_passes import asked_passes, gates_of_leg
+from viaspline.space.plan_spatial import plan_spatial
 from viaspline.space.routing.pass_gates import SIDE_BITS
 
 
@@ -28,3 +30,16 @@ def test_an_obstacle_counts_on_legs_that_come_near_it_and_on_no_other() -> None:
     assert near.shape == (1, 8)
     assert far.shape == (0, 8)
     assert asked_passes(mission()) == ()
+
+
+def test_sides_that_leave_no_way_are_named_where_there_is_one_without_them() -> None:
+    wall = {"name": "wall", "box": {"min": [20, -5, 0], "max": [22, 5, 18]}, "pass_on": "over"}
+    data = {
+        "world": {"known": [wall], "altitude": {"max_m": 18}},
+        "robot": {"radius_m": 0.5, "clearance_m": 1},
+        "route": {"start": [0, 0, 8], "goal": [40, 0, 8]},
+    }
+    with pytest.raises(GaveUpError) as told:
+        plan_spatial(Mission.model_validate(data))
+    assert "passes 'wall' over; without that there is one" in str(told.value)
+    assert "pass_on" in told.value.remedy

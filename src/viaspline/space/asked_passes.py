@@ -25,32 +25,71 @@ class AskedPass:
     Attributes:
         solid: The obstacle.
         allowed: On which sides.
+        name: What it is called.
     """
 
     solid: Solid
     allowed: tuple[PassSide, ...]
+    name: str = "an obstacle"
 
     @classmethod
-    def of(cls, obstacle: Obstacle) -> AskedPass | None:
-        """What is asked of an obstacle; None if nothing is."""
+    def of(cls, obstacle: Obstacle, key: str = "an obstacle") -> AskedPass | None:
+        """What is asked of an obstacle; None if nothing is.
+
+        Args:
+            obstacle: It.
+            key: Where the mission has it, which it is called by if it has no name.
+        """
+        name = obstacle.name or key
         if obstacle.pass_on is not None:
-            return cls(obstacle.solid(), (obstacle.pass_on,))
+            return cls(obstacle.solid(), (obstacle.pass_on,), name)
         if obstacle.never_pass_on is not None:
-            return cls(obstacle.solid(), without([obstacle.never_pass_on]))
+            return cls(obstacle.solid(), without([obstacle.never_pass_on]), name)
         return None
+
+    @property
+    def words(self) -> str:
+        """What is asked, in words.
+
+        >>> from viaspline.mission.shapes.solids import RoundedSegment
+        >>> mast = RoundedSegment((0.0, 0.0, 0.0), (0.0, 0.0, 9.0), 0.2)
+        >>> AskedPass(mast, ("left", "right", "over"), "mast").words
+        "'mast' left, right or over"
+        """
+        *others, last = self.allowed
+        sides = f"{', '.join(others)} or {last}" if others else last
+        return f"'{self.name}' {sides}"
 
 
 def asked_passes(mission: Mission) -> tuple[AskedPass, ...]:
     """Of all obstacles that stand in the mission's known world."""
-    found = (AskedPass.of(obstacle) for obstacle in mission.world.standing)
+    found = (
+        AskedPass.of(obstacle, f"world.known[{k}]")
+        for k, obstacle in enumerate(mission.world.known)
+        if obstacle.motion is None
+    )
     return tuple(one for one in found if one is not None)
 
 
-def gates_of_leg(asked: Sequence[AskedPass], first: Floats, last: Floats, body: float) -> Floats:
-    """The gates that a leg has to pass rightly.
+def passes_of_leg(
+    asked: Sequence[AskedPass], first: Floats, last: Floats, body: float
+) -> list[AskedPass]:
+    """What counts on a leg: what its straight line, in plan, comes near to.
 
-    An obstacle counts on a leg whose straight line, in plan, comes nearer to it than twice the
-    body and its clearance.
+    Nearer than twice the body and its clearance.
+
+    Args:
+        asked: What is asked.
+        first: Where the leg begins [m], (3,).
+        last: Where it ends [m], (3,).
+        body: Radius of the body and clearance together [m].
+    """
+    line = shapely.LineString([first[:2], last[:2]])
+    return [one for one in asked if shapely.distance(line, _outline(one.solid)) <= NEAR * body]
+
+
+def gates_of_leg(asked: Sequence[AskedPass], first: Floats, last: Floats, body: float) -> Floats:
+    """The gates that a leg has to pass rightly, of what counts on it.
 
     Args:
         asked: What is asked.
@@ -61,13 +100,8 @@ def gates_of_leg(asked: Sequence[AskedPass], first: Floats, last: Floats, body: 
     Returns:
         Shape (g, 8).
     """
-    line = shapely.LineString([first[:2], last[:2]])
-    near = [
-        gate(one.solid, first, last, one.allowed)
-        for one in asked
-        if shapely.distance(line, _outline(one.solid)) <= NEAR * body
-    ]
-    return np.concatenate([NO_GATES, *near])
+    near = passes_of_leg(asked, first, last, body)
+    return np.concatenate([NO_GATES, *(gate(one.solid, first, last, one.allowed) for one in near)])
 
 
 def _outline(solid: Solid) -> shapely.Geometry:

@@ -22,7 +22,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.shapes.solids import Solid
 from viaspline.planning.problem.ledger import PassingSide
 from viaspline.planning.problem.method import Found
-from viaspline.space.asked_passes import AskedPass, asked_passes, gates_of_leg
+from viaspline.space.asked_passes import AskedPass, asked_passes, gates_of_leg, passes_of_leg
 from viaspline.space.gates_crossed import crossings, side_of
 from viaspline.space.laying.corner_rounding import straight_span
 from viaspline.space.routing.pass_gates import SIDE_BITS, gate
@@ -190,6 +190,15 @@ class LegRouter:
 
     def _gave_up(self, leg: int, outcome: SpaceGaveUp) -> GaveUpError:
         first, last = self.problem.vias[leg], self.problem.vias[leg + 1]
+        if sides := self._sides_in_the_way(leg):
+            names = f"from '{first.name}' to '{last.name}'"
+            return GaveUpError(
+                f"{names} no route was found that passes {sides}; without that there is one",
+                where=first.at.tolist(),
+                remedy="leave out pass_on or never_pass_on there, or ask for other sides",
+                tried=outcome.tried,
+                via=last.name,
+            )
         return GaveUpError(
             f"from '{first.name}' to '{last.name}' {outcome.reason}",
             where=first.at.tolist(),
@@ -197,6 +206,17 @@ class LegRouter:
             tried=outcome.tried,
             via=last.name,
         )
+
+    def _sides_in_the_way(self, leg: int) -> str:
+        """The asked sides of a leg, if there is a way without them; else nothing."""
+        first, last = self._ends(leg)
+        body = self.problem.required + float(self.problem.world.packed.core[0])
+        asked = passes_of_leg(self._asked, first, last, body)
+        if not asked or not isinstance(
+            self._router.find(first, last, self.problem.required, self._norm), Found
+        ):
+            return ""
+        return " and ".join(one.words for one in asked)
 
 
 def _different(ways: Sequence[TautWay]) -> Sequence[TautWay]:
