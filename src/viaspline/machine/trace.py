@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.machine.rolling_back import without_rolling_back
+from viaspline.machine.turned_in_place import STANDING_M
 
 TRACE_TOLERANCE_M = 1e-3
 """How far a cubic may be from the arcs that it stands for [m]."""
 MAX_HALVINGS = 7
 """A cubic stands for at most 2 to the power of this steps."""
-
-STANDING_M = 1e-9
-"""Steps shorter than this are none [m]."""
 
 
 def trace(
@@ -28,7 +25,8 @@ def trace(
     the cubic are each no farther from their chord than l φ/8 and |q''| Δw²/8, and the chords no
     farther from each other than their ends. The sum bounds the distance everywhere; the longest
     cubics that stay within a millimetre are taken. A body that is a polygon stands where the true
-    one rolls back, and the bound has that distance in it.
+    one rolls back, and the bound has that distance in it. Where it turns while it stands it has
+    poses that the curve doesn't have: see ``turned_in_place``.
 
     Args:
         positions: [m], shape (n, 2), n >= 1.
@@ -70,26 +68,7 @@ def trace(
         taken[(first[:, None] + np.arange(width)).ravel()] = True
         firsts.append(first)
         widths.append(np.full(len(first), width))
-    bound += rolled + reach * _swayed(headings, np.diff(along) > STANDING_M)
-    return _curve(positions, headings, along, firsts, widths, bound)
-
-
-def _swayed(headings: Floats, moves: NDArray[np.bool_]) -> float:
-    """How far a robot that stands turns beyond the headings with which it came and goes [rad].
-
-    From one of these to the other the curve itself turns, at a corner.
-    """
-    edges = np.flatnonzero(np.diff(np.concatenate(([True], moves, [True])).astype(int)))
-    sway = 0.0
-    for begin, end in edges.reshape(-1, 2):  # rows begin to end stand in one place
-        seen = headings[begin : end + 1]
-        low, high = min(seen[0], seen[-1]), max(seen[0], seen[-1])
-        if end == len(moves):  # it stays: nothing goes on from there
-            low = high = seen[0]
-        if begin == 0:
-            low = high = seen[-1]
-        sway = max(sway, float(seen.max() - high), float(low - seen.min()))
-    return sway
+    return _curve(positions, headings, along, firsts, widths, bound + rolled)
 
 
 def _curve(

@@ -220,3 +220,23 @@ def test_a_corner_at_a_station_is_turned_on_the_spot(mission_of: Make) -> None:
 def test_a_route_with_heights_is_not_for_machines(mission_of: Make) -> None:
     with pytest.raises(GeometryError, match="plane"):
         plan(mission_of([0, 0, 1], [9, 0, 2], **machine(sensor=None)))
+
+
+@settings(max_examples=5, deadline=None)
+@given(st.floats(-180.0, 180.0), st.floats(1.2, 2.5))
+def test_what_is_proven_of_a_body_that_turned_where_it_stood_is_near_to_what_it_kept(
+    heading: float, beside: float
+) -> None:
+    """A turn before it set off was taken from the clearance wherever it came by: 6 cm and more."""
+    body = [[-0.45, -0.25], [0.45, -0.25], [0.45, 0.25], [-0.45, 0.25]]
+    mission = Mission.model_validate({
+        "robot": {"footprint": body, "clearance_m": 0.1, "max_speed_mps": 1.5,
+                  "drive": {**DRIVES["differential"], "delay_s": 0.1, "lag_s": 0.1}},
+        "world": {"known": [{"circle": {"center": [5, beside], "radius": 0.5}},
+                            {"circle": {"center": [-1.2, -0.9], "radius": 0.4}}]},
+        "route": {"start": {"at": [0, 0], "heading_deg": heading}, "goal": [9, 0]},
+    })  # fmt: skip
+    run = simulate(mission, step=0.01)
+    assert run.reached, run.reason
+    kept = run.world.body_distance(run.positions, run.headings, body).min()
+    assert kept - 0.01 <= run.certificate.clearance <= kept + 2e-3

@@ -17,6 +17,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.drive_motion import ROW_HEADING, ROW_TIME, ROW_X, ROW_Y
 from viaspline.machine.trace import trace
 from viaspline.machine.travel import travel_of
+from viaspline.machine.turned_in_place import turned_in_place
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Run, Visit
 from viaspline.robot.simulation.appearance import Appearance
@@ -30,6 +31,10 @@ from viaspline.world.world import World
 
 PASSING_WINDOW_M = 1.0
 """A via point is passed within so much of its place along the path [m]."""
+
+TURN_SLACK_M = 5e-4
+"""Between the poses of a body that turns where it stands no point of it moves more than twice this
+[m]."""
 
 MIN_CURVATURE_SPEED_MPS = 0.1
 """A robot that is slower has no curvature to speak of [m/s]."""
@@ -49,6 +54,7 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     path, bound, u = driven_path(drive)
     certificate = proven(path, world, robot)
     certificate = replace(certificate, clearance=certificate.clearance - bound)
+    certificate = min((certificate, *_proven_in_place(drive, path, u, world)), key=_clearance)
     ticks = step * np.arange(math.floor(end / step + 1e-9) + 1)
     times = np.unique(np.concatenate((ticks, [event.time for event in events], [end])))
     times = times[times <= end]
@@ -120,6 +126,41 @@ def proven(path: PiecewiseCubic, world: World, robot: RobotSpec) -> Certificate:
     if robot.footprint is None:
         return certify(path, world, robot.clearance_m, radius=robot.radius_m)
     return certify(path, world, robot.clearance_m, footprint=robot.footprint)
+
+
+def _proven_in_place(
+    drive: MachineDrive, path: Path, u: Floats, world: World
+) -> tuple[Certificate, ...]:
+    """What is proven of a body where it stood and turned: of poses that its curve doesn't have.
+
+    Args:
+        drive: The drive.
+        path: Its curve.
+        u: Its parameter at every row.
+        world: Everything that was there.
+
+    Returns:
+        None for a disc, and where it never stood.
+    """
+    robot = drive.nav.mission.robot
+    if robot.footprint is None:
+        return ()
+    places, spacing = drive.rows[:, ROW_X : ROW_Y + 1], 2.0 * TURN_SLACK_M / robot.outer_radius
+    rows, headings, off = turned_in_place(places, drive.rows[:, ROW_HEADING], spacing)
+    if not rows.size:
+        return ()
+    gaps, nearest = world.body_nearest(places[rows], headings, robot.footprint)
+    k = int(gaps.argmin())
+    at, row = float(u[rows[k]]), rows[k]
+    in_place = Certificate(
+        float(gaps[k]) - off - TURN_SLACK_M, robot.clearance_m, tuple(places[row].tolist()), at,
+        float(path.distance(at)), world.name(int(nearest[k])), None, float(headings[k]),
+    )  # fmt: skip
+    return (in_place,)
+
+
+def _clearance(certificate: Certificate) -> float:
+    return certificate.clearance
 
 
 def driven_path(drive: MachineDrive) -> tuple[Path, float, Floats]:
