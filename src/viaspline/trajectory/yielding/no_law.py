@@ -1,7 +1,4 @@
-"""Why there is no law: a proof that holds for a robot without inertia as well, and what would help.
-
-Tested through ``trajectory/yielding/test_law_among``.
-"""
+"""Why there is no law: a proof that holds for a robot without inertia too, and what would help."""
 
 from __future__ import annotations
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from viaspline.curve.bending import curvature_bound
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.yielding.chord_ends import chord_ends
 from viaspline.kernels.timing.yielding.path_tree import PathTree, path_tree
 
@@ -65,10 +64,6 @@ class Road:
             return float(self.tree.points[-1, 0]), float(self.tree.points[-1, 1])
         x, y = np.asarray(self.path.at_distance(distance), dtype=np.float64)[:2]
         return float(x), float(y)
-
-    def points_at(self, distances: Floats) -> Floats:
-        """Places on it [m], (n, 2)."""
-        return np.asarray(self.path.at_distance(distances), dtype=np.float64)[:, :2]
 
 
 def _in_chords(path: PiecewiseCubic) -> PathTree:
