@@ -11,7 +11,7 @@ from strange_flight_curve import Sampled, users
 from strange_flight_laws import law_faults, row_faults, stop_faults
 from strange_flight_oracle import AskedFlight, Faults
 from strange_flight_sides import side_faults
-from strange_oracle import table
+from strange_oracle import passing_faults, table
 
 CORNER = 0.01
 
@@ -43,16 +43,7 @@ def via_faults(asked: AskedFlight, plan: dict[str, Any], spans: np.ndarray) -> F
         expected, through = sorted(expected), sorted(through)
     if len(expected) != len(through) or not np.allclose(expected, through, rtol=0, atol=1e-9):
         yield "vias", f"{through} instead of {expected}"
-    if not np.array_equal(spans[1:, 0], spans[:-1, 3]):
-        yield "vias", "spans aren't joined"
-    ends = np.concatenate([spans[:, 0], spans[-1:, 3]])
-    last = -1.0
-    for via in plan["path"]["vias"]:
-        if via["u"] != round(via["u"]) or ends[round(via["u"])].tolist() != via["at"]:
-            yield "vias", f"the curve isn't at {via['at']} at u = {via['u']}"
-        if via["u"] <= last:
-            yield "vias", f"{via['name']} isn't in order"
-        last = via["u"]
+    yield from passing_faults(plan, spans)
 
 
 def joint_faults(asked: AskedFlight, plan: dict[str, Any], spans: np.ndarray) -> Faults:

@@ -9,15 +9,10 @@ seventh mission it is seen that it gives the same bytes again. Each fault is tol
 
 from __future__ import annotations
 
-import argparse
 import json
-import math
-import sys
 import tempfile
 import time
-import traceback
 import warnings
-from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -26,8 +21,8 @@ from strange_flight_drives import flight_faults
 from strange_flight_oracle import AskedFlight, Faults
 from strange_flight_plans import flight_plan_faults
 from strange_flights import FLIGHT_KINDS, StrangeFlights
+from strange_hunt import Found, Job, hunt, told_of
 from strange_runs import same_refusal
-from work_pool import done
 
 AGAIN = 7
 SLOW_PLAN_S = 10.0
@@ -40,7 +35,7 @@ def drawn(seed: int, kinds: tuple[str, ...], folder: Path) -> tuple[str, AskedFl
     return kind, AskedFlight(StrangeFlights(rng, kind, folder).draw(), folder)
 
 
-def run(job: tuple[int, tuple[str, ...], bool]) -> tuple[str, str, list[tuple[str, str]]]:
+def run(job: Job) -> Found:
     """The kind of a mission, how it ended, and its faults."""
     seed, kinds, flies = job
     warnings.simplefilter("ignore")
@@ -48,18 +43,8 @@ def run(job: tuple[int, tuple[str, ...], bool]) -> tuple[str, str, list[tuple[st
         folder = Path(name)
         kind, asked = drawn(seed, kinds, folder)
         (folder / "strange.yaml").write_text(json.dumps(asked.data), encoding="utf-8")
-        outcome, faults = "", []
-        try:
-            for found in looked_at(asked, folder, again=seed % AGAIN == 0, flies=flies):
-                if isinstance(found, str):
-                    outcome = found
-                else:
-                    faults.append(found)
-        except Exception as error:  # a defect of the planner, or of this
-            where = traceback.extract_tb(error.__traceback__)[-1]
-            outcome = "defect"
-            faults.append(("defect", f"{error!r} in {where.filename}:{where.lineno}"))
-    return kind, outcome, faults
+        looks = looked_at(asked, folder, again=seed % AGAIN == 0, flies=flies)
+        return kind, *told_of(looks)
 
 
 def looked_at(asked: AskedFlight, folder: Path, *, again: bool, flies: bool) -> Any:
@@ -115,35 +100,5 @@ def saved_faults(plan: Any, folder: Path) -> Faults:
         yield "saved", f"refused: {error}"
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("missions", type=int, nargs="?", default=100)
-    parser.add_argument("first", type=int, nargs="?", default=0)
-    parser.add_argument("--kind", choices=FLIGHT_KINDS, nargs="*", default=FLIGHT_KINDS)
-    parser.add_argument("--limit", type=float, default=120.0, help="seconds for a mission")
-    parser.add_argument("--plans", action="store_true", help="only plan, fly none")
-    parser.add_argument("--here", action="store_true", help="in this process, without a limit")
-    asked = parser.parse_args()
-    seeds = range(asked.first, asked.first + asked.missions)
-    jobs = [(seed, tuple(asked.kind), not asked.plans) for seed in seeds]
-    ended: dict[str, Counter[str]] = {kind: Counter() for kind in asked.kind}
-    faults: Counter[str] = Counter()
-    pool = (
-        ((job, run(job)) for job in jobs)
-        if asked.here
-        else done(run, jobs, 1, math.inf, asked.limit)
-    )
-    for (seed, kinds, _), found in pool:
-        kind, outcome, told = found or (kinds[seed % len(kinds)], "too slow", [("too slow", "")])
-        ended[kind][outcome] += 1
-        print(f"{seed} {kind}: {outcome}", file=sys.stderr, flush=True)
-        for word, what in told:
-            faults[word] += 1
-            print(f"{seed} {kind}: {word}: {what}", flush=True)
-    for kind, counts in ended.items():
-        print(f"{kind}: " + ", ".join(f"{count} {word}" for word, count in counts.items()))
-    print("faults: " + (", ".join(f"{n} x {word}" for word, n in faults.items()) or "none"))
-
-
 if __name__ == "__main__":
-    main()
+    hunt(__doc__.splitlines()[0], FLIGHT_KINDS, run)

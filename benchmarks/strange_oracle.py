@@ -57,6 +57,20 @@ def table(text: str) -> np.ndarray:
     return np.genfromtxt(io.StringIO(text), delimiter=",", names=True)
 
 
+def passing_faults(plan: dict[str, Any], spans: np.ndarray) -> Faults:
+    """Spans that aren't joined, and via points of a plan that its curve isn't at, in order."""
+    if not np.array_equal(spans[1:, 0], spans[:-1, 3]):
+        yield "vias", "spans aren't joined"
+    ends = np.concatenate([spans[:, 0], spans[-1:, 3]])
+    last = -1.0
+    for via in plan["path"]["vias"]:
+        if via["u"] != round(via["u"]) or ends[round(via["u"])].tolist() != via["at"]:
+            yield "vias", f"the curve isn't at {via['at']} at u = {via['u']}"
+        if via["u"] <= last:
+            yield "vias", f"{via['name']} isn't in order"
+        last = via["u"]
+
+
 def polygon_of(shape: dict[str, Any]) -> tuple[Any, float]:
     """The core of an obstacle, and how far it reaches beyond that [m]."""
     if disc := shape.get("circle"):

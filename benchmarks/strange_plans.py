@@ -15,6 +15,7 @@ from strange_oracle import (
     Faults,
     bezier,
     filled,
+    passing_faults,
     polygon_of,
     route_places,
     table,
@@ -41,16 +42,7 @@ def via_faults(asked: Asked, plan: dict[str, Any], spans: np.ndarray) -> Faults:
     places = route_places(asked)
     if [via["at"] for via in through] != places:
         yield "vias", f"{[via['at'] for via in through]} instead of {places}"
-    ends = np.concatenate([spans[:, 0], spans[-1:, 3]])
-    if not np.array_equal(spans[1:, 0], spans[:-1, 3]):
-        yield "vias", "spans aren't joined"
-    last = -1.0
-    for via in plan["path"]["vias"]:
-        if via["u"] != round(via["u"]) or ends[round(via["u"])].tolist() != via["at"]:
-            yield "vias", f"the curve isn't at {via['at']} at u = {via['u']}"
-        if via["u"] <= last:
-            yield "vias", f"{via['name']} isn't in order"
-        last = via["u"]
+    yield from passing_faults(plan, spans)
 
 
 def turned(angle: Any) -> Any:

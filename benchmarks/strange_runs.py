@@ -10,15 +10,11 @@ every seventh mission that it gives the same bytes again. Each fault is told wit
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
-import sys
 import tempfile
 import time
-import traceback
 import warnings
-from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -26,10 +22,10 @@ import numpy as np
 import shapely
 from steps import Steps, measured
 from strange_drives import run_faults
+from strange_hunt import Found, Job, hunt, told_of
 from strange_missions import KINDS, StrangeMissions
 from strange_oracle import Asked, Faults, open_legs, route_places
 from strange_plans import plan_faults
-from work_pool import done
 
 STEP_S = 0.2
 AGAIN = 7
@@ -43,7 +39,7 @@ def drawn(seed: int, kinds: tuple[str, ...], folder: Path) -> tuple[str, Asked]:
     return kind, Asked(StrangeMissions(rng, kind, folder).draw(), folder)
 
 
-def run(job: tuple[int, tuple[str, ...], bool]) -> tuple[str, str, list[tuple[str, str]]]:
+def run(job: Job) -> Found:
     """The kind of a mission, how it ended, and its faults."""
     seed, kinds, drives = job
     warnings.simplefilter("ignore")
@@ -51,18 +47,8 @@ def run(job: tuple[int, tuple[str, ...], bool]) -> tuple[str, str, list[tuple[st
         folder = Path(name)
         kind, asked = drawn(seed, kinds, folder)
         (folder / "strange.yaml").write_text(json.dumps(asked.data), encoding="utf-8")
-        try:
-            outcome, faults = "", []
-            for found in looked_at(asked, folder, again=seed % AGAIN == 0, drives=drives):
-                if isinstance(found, str):
-                    outcome = found
-                else:
-                    faults.append(found)
-        except Exception as error:  # a defect of the planner, or of this
-            where = traceback.extract_tb(error.__traceback__)[-1]
-            outcome = "defect"
-            faults.append(("defect", f"{error!r} in {where.filename}:{where.lineno}"))
-    return kind, outcome, faults
+        looks = looked_at(asked, folder, again=seed % AGAIN == 0, drives=drives)
+        return kind, *told_of(looks)
 
 
 def looked_at(asked: Asked, folder: Path, *, again: bool, drives: bool) -> Any:
@@ -168,35 +154,5 @@ def export_faults(asked: Asked, plan: Any, folder: Path) -> Faults:
             yield "export", f"{least:.6f} m clear, {exported.proof.clearance:.6f} m proven"
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("missions", type=int, nargs="?", default=100)
-    parser.add_argument("first", type=int, nargs="?", default=0)
-    parser.add_argument("--kind", choices=KINDS, nargs="*", default=KINDS)
-    parser.add_argument("--limit", type=float, default=120.0, help="seconds for a mission")
-    parser.add_argument("--plans", action="store_true", help="only plan, drive none")
-    parser.add_argument("--here", action="store_true", help="in this process, without a limit")
-    asked = parser.parse_args()
-    seeds = range(asked.first, asked.first + asked.missions)
-    jobs = [(seed, tuple(asked.kind), not asked.plans) for seed in seeds]
-    ended: dict[str, Counter[str]] = {kind: Counter() for kind in asked.kind}
-    faults: Counter[str] = Counter()
-    pool = (
-        ((job, run(job)) for job in jobs)
-        if asked.here
-        else done(run, jobs, 1, math.inf, asked.limit)
-    )
-    for (seed, kinds, _), found in pool:
-        kind, outcome, told = found or (kinds[seed % len(kinds)], "too slow", [("too slow", "")])
-        ended[kind][outcome] += 1
-        print(f"{seed} {kind}: {outcome}", file=sys.stderr, flush=True)
-        for word, what in told:
-            faults[word] += 1
-            print(f"{seed} {kind}: {word}: {what}", flush=True)
-    for kind, counts in ended.items():
-        print(f"{kind}: " + ", ".join(f"{count} {word}" for word, count in counts.items()))
-    print("faults: " + (", ".join(f"{n} x {word}" for word, n in faults.items()) or "none"))
-
-
 if __name__ == "__main__":
-    main()
+    hunt(__doc__.splitlines()[0], KINDS, run)
