@@ -7,6 +7,7 @@
     python3 check.py --quick    for the edit loop, less than a minute: of the tests those of the
                                 files that differ from the last commit, and the house's own
     python3 check.py --docs     run the pages of the documentation and make the site in build/site
+    python3 check.py --set-up   the environment in .venv alone
 
 Run from a checkout; the environment it makes is a developer's environment as well.
 """
@@ -75,7 +76,24 @@ def set_up() -> None:
     python = BIN / ("python.exe" if os.name == "nt" else "python")
     # What is imported of all that is compiled then: pip would take a minute to compile the rest.
     pip = (python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile")
-    run(*pip, "-e", ".[dev]")
+    if not installed_by_uv(python, pip):
+        run(*pip, "-e", ".[dev]")
+
+
+def installed_by_uv(python: Path, pip: tuple[str | Path, ...]) -> bool:
+    """Whether uv has installed all of it, in a fifth of the time that pip takes.
+
+    It doesn't read pip's configuration, so that it may be without what pip has: then pip does it.
+    """
+    words = (python, "-m", "uv", "pip", "install", "--quiet", "--python", python, "-e", ".[dev]")
+    try:
+        for command in ((*pip, "uv"), words):
+            print(f"\n$ {' '.join(map(str, command))}", flush=True)
+            subprocess.run([str(word) for word in command], cwd=ROOT, check=True, timeout=180.0)
+    except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as fault:
+        print(f"uv can't: {fault}", flush=True)
+        return False
+    return True
 
 
 def changed() -> list[Path]:
@@ -111,6 +129,8 @@ def main() -> None:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     if "--quick" not in sys.argv or not BIN.exists():
         set_up()
+    if "--set-up" in sys.argv:
+        return
     if "--docs" in sys.argv:
         run(BIN / "python", "-m", "pip", "install", "--quiet", "-e", ".[docs]")
         run(BIN / "python", "docsite/build.py")
