@@ -61,11 +61,22 @@ ASKED: dict[str, dict[str, Any]] = {
                 {**TOWER, "height_m": [0, 3]},
                 {
                     "name": "kite", "ball": {"center": [0, 0, 0], "radius": 2},
-                    "motion": {"from": [20, 0, 10], "velocity_mps": [0.3, 0, 0]},
+                    "motion": {"from": [40, -87, 10], "velocity_mps": [0, 4, 0]},
                 },
             ]
         },
         "route": {"start": [0, 0, 10], "via": [[70, 5, 10]], "goal": [100, 0, 10], "depart_s": 3},
+    },
+    "flight led round": {
+        "world": {
+            "known": [
+                {
+                    "name": "airship", "ball": {"center": [0, 0, 0], "radius": 2},
+                    "motion": {"from": [97.3, 0.1, 10], "velocity_mps": [-1.7, 0.013, 0.007]},
+                },
+            ]
+        },
+        "route": {"start": [0, 0, 10], "goal": [80, 0, 10]},
     },
 }  # fmt: skip
 

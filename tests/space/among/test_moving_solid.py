@@ -85,3 +85,21 @@ def test_what_gets_less_certain_is_farther_off_later() -> None:
     assert (np.diff(solid.times) <= 1.0 + 1e-9).all()
     assert solid.off[0] == pytest.approx(0.3)
     assert solid.off[-1] == pytest.approx(1.1)
+
+
+@given(seed=st.integers(0, 100_000))
+def test_a_part_of_it_is_where_all_of_it_is(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    rows = rng.uniform(-9, 9, (4, 3))
+    frames = [[t, *row, 0] for t, row in zip([0, 2, 3, 7], rows[:, :2].tolist(), strict=True)]
+    motion = {"keyframes": frames, "after": str(rng.choice(["loop", "bounce", "stay", "vanish"]))}
+    one = MovingSolid.of(
+        Obstacle(ball={"center": (0, 0, 0), "radius": 1}, motion=motion), "one", 1.0, 20.0
+    )
+    begin, end = np.sort(rng.uniform(-3, 24, 2)).tolist()
+    part = one.between(begin, end)
+    first, last = np.clip([begin, end], one.times[0], one.times[-1]).tolist()
+    assert (part.times[0], part.times[-1]) == (first, max(first, last))
+    times = rng.uniform(first, last, 50)
+    np.testing.assert_allclose(part.at(times), one.at(times), atol=1e-9)
+    np.testing.assert_array_equal(part.off_at(times), one.off_at(times))

@@ -95,7 +95,7 @@ def test_what_passes_above_is_not_waited_for() -> None:
 
 def test_what_passes_at_every_height_is_waited_for() -> None:
     cart = {"name": "crane", "circle": {"center": [0, 0], "radius": 1},
-            "motion": {"from": [20, -10], "velocity_mps": [0, 1.4]}}  # fmt: skip
+            "motion": {"from": [20, -8], "velocity_mps": [0, 1.4]}}  # fmt: skip
     plan = planned(cart)
     (one,) = plan.waits
     assert one.obstacle == "crane"
@@ -107,6 +107,15 @@ def test_what_stays_in_the_way_is_flown_round() -> None:
     plan = planned(ball("balloon", 1.5, frames))
     assert plan.path.length > 40.1
     assert gaps(plan, 1.5, frames, "stay").min() >= CLEARANCE - 1e-6
+
+
+@pytest.mark.parametrize("speed", [0.7, 1.7, 5.0])
+def test_what_comes_along_all_of_the_route_is_gone_round_where_it_is_met(speed: float) -> None:
+    frames = [[0.0, 60.0, 0.1, 10.0], [80.0 / speed, -20.0, 0.1, 10.0]]
+    plan = planned(ball("airship", 2.0, frames))
+    assert plan.moving is not None
+    assert plan.moving.holds
+    assert gaps(plan, 2.0, frames, "stay").min() >= CLEARANCE - 1e-6
 
 
 def test_a_lift_that_goes_up_and_down_is_passed_when_it_is_away() -> None:
@@ -221,7 +230,7 @@ def test_a_plan_knows_nothing_of_what_moves_unseen() -> None:
 
 def test_the_proof_and_the_waits_are_in_the_plan_and_the_flight_keeps_clear() -> None:
     cart = {"name": "crane", "circle": {"center": [0, 0], "radius": 1},
-            "motion": {"from": [20, -10], "velocity_mps": [0, 1.4]}}  # fmt: skip
+            "motion": {"from": [20, -8], "velocity_mps": [0, 1.4]}}  # fmt: skip
     plan = planned(cart)
     data = json.loads(spatial_plan_json(plan, "past"))
     assert data["certificate"]["moving"]["obstacle"] == "crane"

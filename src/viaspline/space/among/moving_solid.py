@@ -107,6 +107,14 @@ class MovingSolid:
             self, times=times, places=places, there=self.there[first:], off=self.off[first:]
         )
 
+    def between(self, begin: float, end: float) -> MovingSolid:
+        """It from one time to another [s], as far as it is known for these."""
+        begin = min(max(begin, float(self.times[0])), float(self.times[-1]))
+        times, places, there = _cut(
+            self.times, self.places, self.there, begin, max(begin, min(end, float(self.times[-1])))
+        )
+        return replace(self, times=times, places=places, there=there, off=self.off_at(times))
+
     def at_any_time(self, time: float) -> Floats:
         """Where its middle is, or would be if it were there, at a time [s]: [m], (3,)."""
         return np.array([np.interp(time, self.times, self.places[:, k]) for k in range(3)])
