@@ -14,7 +14,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.exports.chord_bound import chord_bound
+from viaspline.exports.chord_bound import chord_bound, chord_bounds
 from viaspline.exports.corner_cut import corner_strays
 from viaspline.exports.line_proof import LineProof, LineProver
 from viaspline.exports.sparse_vertices import sparse_parameters
@@ -87,12 +87,7 @@ class _Cutting:
 
     def bounds(self, u: Floats, points: Floats) -> Floats:
         """The chord error of each line [m], shape (n - 1,)."""
-        return np.array(
-            [
-                chord_bound(self.path.section(a, b).spans, points[i], points[i + 1])
-                for i, (a, b) in enumerate(zip(u[:-1].tolist(), u[1:].tolist(), strict=True))
-            ]
-        )
+        return chord_bounds(self.path, u, points)
 
     def judged(self, u: Floats, points: Floats) -> _Judged:
         """What is proven of lines."""
@@ -209,10 +204,7 @@ def _cut(
 
     def near(error: float) -> Callable[[float, float], bool]:
         def allowed(a: float, b: float) -> bool:
-            if not may_join(a, b):
-                return False
-            spans = cutting.path.section(a, b).spans
-            return chord_bound(spans, spans[0, 0], spans[-1, 3]) <= error
+            return may_join(a, b) and chord_bound(cutting.path, a, b) <= error
 
         return allowed
 
