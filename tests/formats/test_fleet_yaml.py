@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import json
+import random
 import re
+import textwrap
 import time
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
@@ -138,6 +141,36 @@ def test_what_is_written_reads_the_same(data: dict[str, Any], tmp_path: Path) ->
     text = fleet_text(fleet)
     assert FleetYaml().write(fleet, Whereabouts()).text == text
     assert FleetYaml().sniff(Path("again.yaml"), text)
+
+
+@settings(
+    max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(
+    data=fleets(),
+    order=st.randoms(use_true_random=False),
+    indent=st.sampled_from([None, 0, 1, 4]),
+    before=st.sampled_from(["", "  ", "# a fleet\n\n", "---\n"]),
+)
+def test_a_fleet_in_braces_is_one_however_it_is_laid_out(
+    data: dict[str, Any], order: random.Random, indent: int | None, before: str, tmp_path: Path
+) -> None:
+    asked = {key: data[key] for key in order.sample(sorted(data), len(data))}
+    assume(json.dumps(asked, ensure_ascii=False).isprintable())  # else it isn't YAML
+    text = before + json.dumps(asked, indent=indent, ensure_ascii=False)
+    (tmp_path / "braces.yaml").write_text(text)
+    assert vs.load(tmp_path / "braces.yaml") == vs.Fleet.model_validate(data)
+
+
+def test_a_fleet_whose_lines_are_all_indented_is_one(tmp_path: Path) -> None:
+    (tmp_path / "fleet.yaml").write_text(textwrap.indent(FLEET, "  "))
+    assert isinstance(vs.load(tmp_path / "fleet.yaml"), vs.Fleet)
+
+
+def test_a_mission_that_has_words_of_fleets_in_it_is_none(tmp_path: Path) -> None:
+    text = '{"world": {"known": [{"name": "fleet: 2", "circle": {"center": [0, 9], "radius": 1}}]},'
+    (tmp_path / "one.yaml").write_text(f'{text} "route": {{"start": [0, 0], "goal": [9, 0]}}}}')
+    assert isinstance(vs.load(tmp_path / "one.yaml"), vs.Mission)
 
 
 def test_files_are_named_from_where_the_fleet_is_written(tmp_path: Path) -> None:

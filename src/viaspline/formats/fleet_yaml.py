@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 from viaspline.errors import OutputError
 from viaspline.formats.mission_format import MissionFormat, Whereabouts, Written
 from viaspline.formats.named_files import relative, route_data, world_data
+from viaspline.formats.outermost_keys import outermost_keys
 from viaspline.formats.whole_file import write_whole
 from viaspline.formats.yaml_document import yaml_document
 from viaspline.formats.yaml_lines import flow, section
@@ -18,10 +19,12 @@ if TYPE_CHECKING:
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.fleet.member_spec import MemberSpec
 
-_OWN_KEY: Final = re.compile(
-    r"""^\{?[ ]*["']?(?:fleet|robots|separation_m)["']?[ ]*:""", re.MULTILINE
-)
-"""At the beginning of a line, a key that a fleet has and a mission hasn't."""
+_OWN_KEYS: Final = frozenset({"fleet", "robots", "separation_m"})
+"""Those that a fleet has and a mission hasn't."""
+_OWN_KEY: Final = re.compile(rf"""["']?(?:{"|".join(sorted(_OWN_KEYS))})["']?\s*:""")
+"""What may be one of them, wherever it stands."""
+_OWN_LINE: Final = re.compile(rf"^{_OWN_KEY.pattern}", re.MULTILINE)
+"""At the beginning of a line: one of them for sure, in a text that isn't in braces."""
 _LISTS: Final = frozenset({"known", "fences", "speed_zones"})
 
 
@@ -39,8 +42,14 @@ class FleetYaml(MissionFormat["Fleet"]):
         True
         >>> FleetYaml().sniff(Path("a.yaml"), "route: {start: [0, 0]}  # no fleet: one robot")
         False
+        >>> FleetYaml().sniff(Path("a.yaml"), '{"world": {"known": []}, "fleet": []}')
+        True
         """
-        return path.suffix.lower() in self.endings and _OWN_KEY.search(text) is not None
+        if path.suffix.lower() not in self.endings or _OWN_KEY.search(text) is None:
+            return False
+        if _OWN_LINE.search(text) is not None:
+            return True
+        return any(key in _OWN_KEYS for key in outermost_keys(text))
 
     def read(self, text: str, source: str) -> Fleet:
         """The fleet that a text describes; each of its faults has its line and column."""
