@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tempfile
 
 import numpy as np
 import pytest
@@ -160,3 +161,29 @@ def test_a_wall_from_bound_to_bound_up_to_the_ceiling_is_refused_not_given_up() 
     data["world"]["known"] = [{"box": {"min": [70, 0, 0], "max": [90, 160, 70]}}]  # type: ignore[index]
     with pytest.raises(NoPathError):
         vs.plan(Mission.model_validate(data))
+
+
+@settings(max_examples=10, deadline=None)
+@given(
+    height=st.floats(3.0, 40.0), takes_off=st.booleans(), roof=st.floats(0.0, 1.5),
+    climb=st.floats(0.5, 3.0),
+)  # fmt: skip
+def test_a_drone_lands_right_under_where_it_is(
+    height: float, takes_off: bool, roof: float, climb: float
+) -> None:
+    route: dict[str, object] = {"start": [5, 5, height], "via": [], "land": {"at": [5, 5]}}
+    if takes_off:
+        route |= {"start": [5, 5], "takeoff": {"to_agl_m": height}}
+    box = {"box": {"min": [7, 0, 0], "max": [12, 10, roof + 0.1]}}
+    robot = {"radius_m": RADIUS, "half_height_m": HALF, "clearance_m": CLEARANCE}
+    plan = vs.plan(Mission.model_validate({
+        "world": {"ground": {"flat_m": 0}, "known": [box]},
+        "robot": {**robot, "max_climb_mps": climb}, "route": route,
+    }))  # fmt: skip
+    assert plan.path.length == pytest.approx((height - HALF) * (1 + takes_off))
+    assert CLEARANCE <= plan.certificate.clearance <= 1.5 + 1e-6  # from the box
+    assert plan.heights.greatest.height == pytest.approx(height)
+    assert vs.fly(plan).reached
+    with tempfile.TemporaryDirectory() as folder:
+        plan.save(folder)
+        assert vs.load_plan(folder) == plan

@@ -25,6 +25,7 @@ from viaspline.saved_plans.plan_file import PlanFile
 from viaspline.saved_plans.saved_search import saved_ledger, saved_waits
 from viaspline.saved_plans.served_points import AskedPoint, check_served
 from viaspline.space.among.plan_past_moving import proof_past_moving
+from viaspline.space.part_of_path import part_of_path
 from viaspline.space.solve_route import whole_proof
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
@@ -105,7 +106,7 @@ def _alone(
     try:
         certificate = whole_proof(problem, shown, flown)
         u = np.asarray(shown.parameter(flown)).tolist()
-        heights = certify_heights(shown.section(*u), problem.world)
+        heights = certify_heights(part_of_path(shown, *u), problem.world)
     except GeometryError as error:
         raise plan.wrong(f"the path can't be proven: {error}") from None
     said = plan.number("certificate", "clearance_m")

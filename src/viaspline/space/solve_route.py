@@ -24,6 +24,7 @@ from viaspline.space.laying.gentle_turns import GentleTurns
 from viaspline.space.laying.laid_route import LaidRoute, RouteLegs
 from viaspline.space.laying.via_directions import via_directions
 from viaspline.space.leg_check import LegCheck
+from viaspline.space.part_of_path import part_of_path
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_solution import SpatialSolution
 from viaspline.space.weighed_ways import (
@@ -241,8 +242,7 @@ def _proof(
     """The proof of a part of the path, told in the whole one's parameters."""
     u0, u1 = np.asarray(path.parameter([first, last])).tolist()
     world = without_ground(problem.world) if upright else problem.world
-    part = path.section(u0, u1)
-    proof = certify(part, world, problem.clearance, radius=problem.radius)
+    proof = certify(part_of_path(path, u0, u1), world, problem.clearance, radius=problem.radius)
     return replace(
         proof,
         tightest_u=proof.tightest_u + u0,

@@ -14,6 +14,7 @@ from viaspline.curve.height_certificate import certify_heights
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.space.leg_router import LegRouter
+from viaspline.space.part_of_path import part_of_path
 from viaspline.space.solve_route import LANDING, TAKE_OFF, solve_route
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
@@ -57,7 +58,7 @@ def static_plan_by(mission: Mission, problem: SpatialProblem, ways: WaysPast) ->
     yaw = headings_of(problem, path)
     law = fastest_law(problem, path, yaw, mission.route.depart_s)
     u = np.asarray(path.parameter(found.airborne)).tolist()
-    heights = certify_heights(path.section(*u), problem.world)
+    heights = certify_heights(part_of_path(path, *u), problem.world)
     return SpatialPlan(
         mission, problem.world, path, found.certificate, heights, found.ledger, found.airborne,
         problem.limits, yaw, law,
