@@ -1,3 +1,5 @@
+import math
+
 import numpy as np
 import pytest
 
@@ -80,3 +82,28 @@ def test_robots_with_via_points_are_not_led_over_a_lattice():
     found = lattice_paths({"a": one}, 0.0)
     assert isinstance(found, NoLatticeOrder)
     assert found.reason == "'a' has via points"
+
+
+@pytest.mark.parametrize("end", ["start", "goal"])
+def test_robots_with_a_heading_at_an_end_are_not_led_over_a_lattice(end: str) -> None:
+    headed = {"at": (6.5, 0.5) if end == "goal" else (0.5, 0.5), "heading_deg": 90}
+    route = {"start": (0.5, 0.5), "goal": (6.5, 0.5), end: headed}
+    mission = vs.Mission.model_validate({"robot": ROBOT, "route": route})
+    found = lattice_paths({"a": plan(mission)}, 0.0)
+    assert isinstance(found, NoLatticeOrder)
+    assert found.reason == "'a' is to start or to arrive with a heading"
+
+
+@pytest.mark.parametrize("turn", [0, 60, 120, 180, 240, 300])
+def test_a_ring_keeps_the_headings_that_are_asked_for(turn: float) -> None:
+    at = [(10 + 3 * math.cos(a), 10 + 3 * math.sin(a)) for a in (0.0, 2.1, 4.2)]
+    robots = [
+        {"name": f"r{k}", "rest": "leave" if k else "stay",
+         "route": {"start": {"at": at[k], "heading_deg": turn}, "goal": at[(k + 1) % 3]}}
+        for k in range(3)
+    ]  # fmt: skip
+    fleet = {"separation_m": 0.5, "robots": {"r": {"radius_m": 0.4}}, "fleet": robots}
+    for one in vs.plan_fleet(vs.Fleet.model_validate(fleet)).plans.values():
+        assert isinstance(one, vs.Plan)
+        off = float(one.path.heading(0.0)) - math.radians(turn)
+        assert abs(math.remainder(off, math.tau)) < 1e-6

@@ -244,6 +244,12 @@ def _unfit(plans: Mapping[str, Plan]) -> NoLatticeOrder | None:
             reason = f"'{name}' has via points"
         elif plan.mission.robot.turn_radius is not None or len(plan.mission.world.moving) > 0:
             reason = f"'{name}' can't stop and turn wherever it has to"
+        elif any(
+            getattr(end, "heading_deg", None) is not None for end in (route.start, route.goal)
+        ):
+            reason = f"'{name}' is to start or to arrive with a heading"
+        elif plan.world.sided.size:
+            reason = f"'{name}' is to pass something on one side"
         elif plan.world is not world and plan.world.obstacles != world.obstacles:
             reason = f"'{name}' has a map of its own"
         else:
