@@ -190,7 +190,7 @@ def test_a_closed_round_ends_where_another_robot_may_not_rest() -> None:
               "route": {"start": [0, 0], "via": [[5, 5]], "closed": True}}  # fmt: skip
     fault = only_fault_of(fleet(closed, robot("b", [20, 0], [1, 0])))
     assert fault.key == "fleet[1].route.goal.at"
-    assert "where 'a' starts" in fault.problem
+    assert "'b' stays for good 1 m from where 'a' does" in fault.problem
     again = {**closed, "name": "b", "route": {**closed["route"], "start": [1, 0]}}
     assert only_fault_of(fleet(closed, again)).key == "fleet[1].route.start.at"
 
@@ -327,3 +327,18 @@ def test_what_a_mission_means_in_the_fleet_is_told_in_its_own_file(folder: Path)
 def test_a_file_that_is_no_mission_is_said(folder: Path, text: str, words: str) -> None:
     (folder / "sub" / "a.yaml").write_text(text + "\n")
     assert words in "\n".join(faults_in(folder))
+
+
+def test_a_round_that_ends_where_another_stays_is_told_as_that(tmp_path: Path) -> None:
+    file = tmp_path / "fleet.yaml"
+    file.write_text(
+        "robots: {r: {radius_m: 0.5}}\n"
+        "fleet:\n"
+        "  - {name: a, route: {start: [0, 9], goal: [0.5, 0]}}\n"
+        "  - {name: b, route: {start: [0, 0], via: [[9, 0], [9, 3]], closed: true, laps: 1}}\n"
+    )
+    with pytest.raises(MissionError) as error:
+        vs.load(file)
+    (fault,) = str(error.value).splitlines()
+    assert "'b' stays for good 0.5 m from where 'a' does" in fault
+    assert "set rest: leave for 'a'" in fault

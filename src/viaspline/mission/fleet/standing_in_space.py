@@ -114,18 +114,20 @@ def _gap(first: _Hover, second: _Hover) -> float:
 
 
 def _fault(first: _Hover, second: _Hover, separation: float) -> UnplacedFault:
-    verb = "starts" if second.is_start else "stays for good"
-    where = "starts" if first.is_start else "does"
+    both_start = first.is_start and second.is_start  # a round ends there as well
+    verb = "starts" if both_start else "stays for good"
     gap = _gap(first, second)
     between = f"{number(max(gap, 0.0))} m of free space" if gap > 0.0 else "no free space"
     problem = (
-        f"{second.label} {verb} with {between} between it and where {first.label} {where}: "
+        f"{second.label} {verb} with {between} between it and where {first.label} does: "
         f"separation_m asks for {number(separation)}"
     )
     remedies = ["move one of them"]
     spare = math.floor((gap + ROUND_OFF_M) * 1e3) / 1e3  # rounded down, so that it is enough
     if spare >= 0.0:
         remedies.append(f"set separation_m to at most {number(spare)}")
-    if not second.is_start and not first.is_start:
-        remedies.append("set rest: leave for one of them")
+    if not both_start:
+        at_goal = [one.label for one in (first, second) if not one.is_start]
+        who = at_goal[0] if len(at_goal) == 1 else "one of them"
+        remedies.append(f"set rest: leave for {who}")
     return UnplacedFault(second.path, problem, ", or ".join(remedies))

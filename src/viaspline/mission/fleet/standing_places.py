@@ -95,10 +95,10 @@ def _too_near(stands: Sequence[_Stand], separation: float) -> Iterator[tuple[_St
 def _fault(first: _Stand, second: _Stand, separation: float) -> UnplacedFault:
     apart = math.dist(first.place, second.place)
     needed = first.radius + second.radius + separation
-    verb = "starts" if second.is_start else "stays for good"
-    where = "starts" if first.is_start else "does"
+    both_start = first.is_start and second.is_start  # a round ends there as well
+    verb = "starts" if both_start else "stays for good"
     problem = (
-        f"{second.label} {verb} {number(apart)} m from where {first.label} {where}: with their "
+        f"{second.label} {verb} {number(apart)} m from where {first.label} does: with their "
         f"bodies and separation_m {number(separation)} they have to be {number(needed)} m apart"
     )
     remedies = ["move one of them"]
@@ -106,6 +106,8 @@ def _fault(first: _Stand, second: _Stand, separation: float) -> UnplacedFault:
     spare = math.floor((apart - first.radius - second.radius + ROUND_OFF_M) * 1e3) / 1e3
     if spare >= 0.0:
         remedies.append(f"set separation_m to at most {number(spare)}")
-    if not second.is_start and not first.is_start:
-        remedies.append("set rest: leave for one of them")
+    if not both_start:
+        at_goal = [one.label for one in (first, second) if not one.is_start]
+        who = at_goal[0] if len(at_goal) == 1 else "one of them"
+        remedies.append(f"set rest: leave for {who}")
     return UnplacedFault(second.path, problem, ", or ".join(remedies))
