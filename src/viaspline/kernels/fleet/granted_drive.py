@@ -175,6 +175,7 @@ def drive_stretch(
         if rides.square[node + 1] > 0.0 or square == 0.0:
             return now
         drive.square[robot] = 0.0  # what is left of its braking takes its time
+        drive.slope[robot] = -square / max(left, NEAR_M)
         return min(now + 2.0 * left / math.sqrt(square), until)
     room = grant - drive.place[robot]
     if square == 0.0 and (room <= NEAR_M or pace < SLOWEST):
