@@ -35,3 +35,14 @@ def test_waits_for_all_that_one_lets_pass_are_all_that_it_is_late(planned: Fleet
     assert late > 0.3
     assert sum(waits) == pytest.approx(late, abs=0.01)
     assert waits[0] > 0.0
+
+
+def test_robots_that_have_no_plan_pass_nobody() -> None:
+    robots = [
+        {"name": name, "route": {"start": [start, 0], "goal": [goal, 0]}}
+        for name, start, goal in (("a", 0, 20), ("b", 20, 0), ("c", 14, 9))
+    ]
+    asked = {"world": {"bounds": [-1, -1.05, 21, 1.05]}, "separation_m": 0.3, "fleet": robots}
+    plan = vs.plan_fleet(vs.Fleet.model_validate(asked))
+    assert set(plan.plans) == {"c"}
+    assert plan.precedences == ()

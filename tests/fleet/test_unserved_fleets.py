@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+import viaspline as vs
 from viaspline.fleet.crossing_paths import crossing_paths
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.plan_fleet import plan_by_priority, plan_fleet
@@ -169,3 +171,33 @@ def test_on_a_line_all_that_stay_are_served_just_where_their_order_stays(
         for mine, other in pairs:
             i, j = int(mine[1:]), int(other[1:])
             assert (starts[i] < starts[j]) != (goals[i] < goals[j])
+
+
+@pytest.mark.parametrize("away", [1.2, 1.5, 4.0])
+def test_how_far_others_stay_from_one_without_a_path_is_proven(
+    away: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viaspline.report.fleet_results.fleet_picture", lambda plan, name: b"")
+    ring = [[8, away - 0.6], [12, away - 0.6], [12, away + 4], [8, away + 4]]
+    walls = [
+        {"capsule": {"from": one, "to": other, "radius": 0.02}}
+        for one, other in zip(ring, [*ring[1:], ring[0]], strict=True)
+    ]
+    shut = robot("shut in", [10, away], [10, 30])
+    south = {"bounds": [-2, -10, 22, 40]}
+    post = {"circle": {"center": [10, 34], "radius": 2}}
+    plan = planned(
+        robot("a", [0, 0], [20, 0]), shut, robot("b", [0, -9], [20, -9]),
+        world={**south, "known": [*walls, post]},
+    )  # fmt: skip
+    assert set(plan.plans) == {"a", "b"}
+    assert plan.certificate.pair is not None
+    assert set(plan.certificate.pair) == {"a", "shut in"}
+    times = np.arange(0.0, plan.plans["a"].trajectory.end_time, 0.01)
+    path = plan.plans["a"].path
+    places = path.at_distance(plan.plans["a"].trajectory.distance_at(times))
+    nearest = float(np.hypot(*(places - np.array([10, away])).T).min()) - 0.8
+    assert plan.certificate.separation <= nearest + 1e-9
+    assert plan.certificate.separation == pytest.approx(nearest, abs=0.005)
+    plan.save(tmp_path)
+    assert vs.load_fleet_plan(tmp_path) == plan

@@ -140,7 +140,7 @@ def _as_laid(
     for robot, name in enumerate(new.courses.names):
         last = int(new.courses.packed.first[robot + 1]) - 1
         if name in found and new.rides.packed.vanishes[robot]:
-            packed.leave[last] = packed.arrive[last]
+            packed.leave[last] = found[name].trajectory.end_time
     leaders, _ = crossing_leaders(new.courses.packed, new.crossings.packed, packed)
     if (leaders == UNSETTLED).any():
         return None

@@ -39,7 +39,8 @@ class FleetPlan(ShownValue, MovingValue, SavedValue, ComparedByValue):
             a fleet in space are plans in space. Its trajectory begins when its robot departs, by
             the clock of the fleet.
         not_served: The others, with the reason.
-        certificate: The least separation of any two robots that have a path, over all time.
+        certificate: The least separation of any two robots, over all time; those that aren't served
+            stand at their starts.
         precedences: Who passes first, wherever two paths come near each other.
         alone: How long each robot would drive if it were alone [s], by name; a patrol all laps of
             its plan, with what it waits for the next period.

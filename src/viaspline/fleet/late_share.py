@@ -19,7 +19,7 @@ WELL_SERVED_SHARE = 0.1
 
 
 def arrivals_of(courses: FleetCourses, laws: FleetLaws) -> Floats:
-    """When each robot arrives; infinite for those that have no law [s], (n,).
+    """When each robot comes to its goal; infinite for those that have no law [s], (n,).
 
     Args:
         courses: Their paths.
@@ -35,7 +35,8 @@ def late_share(rides: FleetRides, arrivals: Floats) -> float:
 
     Args:
         rides: How each drives alone.
-        arrivals: When each arrives; those that never do are left out [s], (n,).
+        arrivals: When each has arrived, and stood at its goal as long as asked; those that never
+            have are left out [s], (n,).
     """
     late = arrivals - rides.packed.depart - rides.alone
     there = np.isfinite(late)

@@ -9,7 +9,6 @@ from dataclasses import replace
 from viaspline.errors import GeometryError
 from viaspline.fleet.among_moving import among_moving, proven_among
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
-from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.late_share import arrivals_of
@@ -23,13 +22,16 @@ from viaspline.fleet.patrols.timed_patrols import timed_patrols
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet, try_cost
+from viaspline.fleet.robots_at_home import certify_all
 from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_along
 from viaspline.fleet.space.plan_spatial_fleet import plan_spatial_fleet
 from viaspline.fleet.still_world import without_motion
 from viaspline.fleet.swerved_fleet import swerved_fleet
 from viaspline.fleet.timed_fleet import TimedFleet
+from viaspline.fleet.timing.rides import goal_stays
 from viaspline.fleet.timing.time_paths import MANY
 from viaspline.fleet.unserved.explain_unserved import explain_unserved
+from viaspline.fleet.unserved.unserved_beside import unserved_beside
 from viaspline.formats.asked_for import AskedFleet, asked_fleet
 from viaspline.handed_in import check_callable, number_from
 from viaspline.mission.fleet.fleet import Fleet
@@ -197,7 +199,8 @@ def is_settled_by_priority(plan: FleetPlan, paths: CrossingPaths) -> bool:
         return False
     if plan.patrols is not None or plan.fleet.world.moving:
         return True
-    if may_be_led_sooner(plan.rides, arrivals_of(plan.courses, plan.laws)):
+    arrivals = arrivals_of(plan.courses, plan.laws) + goal_stays(plan.courses, plan.rides)
+    if may_be_led_sooner(plan.rides, arrivals):
         return False
     kept = paths.laid.kept
     return kept is None or not is_dense(plan.fleet, AlonePaths.of_kept(kept))
@@ -206,27 +209,10 @@ def is_settled_by_priority(plan: FleetPlan, paths: CrossingPaths) -> bool:
 def _unserved(
     fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, budget: float
 ) -> Sequence[NotServed]:
-    """Why robots couldn't be timed, and what would help.
-
-    Among patrols and what moves the reasons are known from their timing, and nothing is tried.
-    """
+    """Why robots couldn't be timed, and what would help."""
     if not fleet.world.moving and timed.patrols is None:
         return explain_unserved(fleet, paths, timed, budget)
-    names = timed.ways.courses.names
-    return [
-        NotServed(
-            names[robot],
-            "gave up",
-            *timed.reasons.get(
-                robot,
-                (
-                    f"it can't be timed along its path: '{names[other]}' is in its way",
-                    f"give '{names[other]}' another start, goal or priority, or let it leave",
-                ),
-            ),
-        )
-        for robot, other in sorted(timed.timing.blocked.items())
-    ]
+    return unserved_beside(timed)
 
 
 def _by_priority(ways: FleetWays, left_out: dict[int, int]) -> TimedFleet:
@@ -295,7 +281,7 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
     ways, timing = timed.ways, timed.timing
     courses, names = ways.courses, ways.courses.names
     patrols = timed.patrols
-    certificate = certify_fleet(courses, timing.laws, fleet.separation_m)
+    certificate = certify_all(fleet, courses, timing.laws)
     if patrols is not None:
         certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
     crossings = ordered_crossings(courses, ways.crossings, timing.laws)

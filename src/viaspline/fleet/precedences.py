@@ -21,11 +21,15 @@ TIGHT_S = 1e-3
 class Precedence:
     """Who passes first where two paths come near each other.
 
+    The second may be in the crossing while the first still is, as far behind it as they have to
+    be apart: on a stretch that both drive the same way it follows.
+
     Attributes:
         first: The name of the robot that passes first.
         second: The name of the one that passes after it.
-        leaves_at: Where along its path the first one has passed [m].
-        enters_at: From where along its path the second one would be too near [m].
+        leaves_at: Where along the path of the first one all of the crossing is behind it [m].
+        enters_at: Where along the path of the second one the crossing begins [m]: from there on
+            it would be too near to some place of the first one's part.
         waits_s: How much later the second one comes for it [s]; 0 where it comes later anyway.
     """
 
@@ -39,7 +43,7 @@ class Precedence:
 def precedences_of(
     courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws
 ) -> tuple[Precedence, ...]:
-    """Who passes first at every crossing, in the order of the crossings.
+    """Who passes first at every crossing of two robots that drive, in the order of the crossings.
 
     Args:
         courses: The paths of the fleet.
@@ -55,11 +59,13 @@ def precedences_of(
     ranked = np.where(later, packed.robots[:, ::-1], packed.robots).tolist()
     places = np.where(later, packed.span[:, [3, 0]], packed.span[:, [1, 2]]).tolist()
     names = courses.names
+    drives = np.isfinite(laws.packed.arrive[nodes.first[1:] - 1])
     return tuple(
         Precedence(names[first], names[second], left, entered, waited)
         for (first, second), (left, entered), waited in zip(
             ranked, places, waits.tolist(), strict=True
         )
+        if drives[first] and drives[second]
     )
 
 

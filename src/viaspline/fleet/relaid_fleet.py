@@ -102,9 +102,9 @@ def _as_laid(
     plans = tuple(found.values())
     rides = rides_of(ways.members, plans, courses)
     packed = static_laws(courses, [plan.trajectory for plan in plans]).packed
-    for last, leaves in zip(courses.packed.first[1:] - 1, rides.packed.vanishes, strict=True):
-        if leaves:
-            packed.leave[last] = packed.arrive[last]
+    for robot, plan in enumerate(plans):
+        if rides.packed.vanishes[robot]:
+            packed.leave[courses.packed.first[robot + 1] - 1] = plan.trajectory.end_time
     laws = FleetLaws(packed)
     leaders, _ = crossing_leaders(courses.packed, crossings.packed, packed)
     if (leaders == UNSETTLED).any():

@@ -15,6 +15,7 @@ from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.fleet_ways import FleetWays, planar_plans
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.timing.law_search import priority_weights
+from viaspline.fleet.timing.rides import goal_stays
 from viaspline.fleet.timing.time_paths import Timing, standing_laws
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.kernels.arrays import Floats
@@ -163,12 +164,16 @@ class TimedFleet:
         return self.timing.rank(self.ways.courses, weight)
 
     def arrivals(self) -> Floats:
-        """When each robot arrives; infinite for those that have no law [s], (n,)."""
-        return self.timing.arrivals(self.ways.courses)
+        """When each robot has arrived, and stood at its goal as long as it has to [s], (n,).
+
+        Infinite for those that have no law.
+        """
+        return self.timing.arrivals(self.ways.courses) + goal_stays(
+            self.ways.courses, self.ways.rides
+        )
 
     def last_arrival(self) -> float:
         """When the last robot that ends has arrived [s]; minus infinity if none is under way."""
-        laws, first = self.timing.laws.packed, self.ways.courses.packed.first
-        ends = [not one.mission.route.is_patrol for one in self.ways.members]
-        arrivals = laws.arrive[first[1:] - 1][laws.is_timed & np.array(ends, np.bool_)]
+        ends = np.array([not one.mission.route.is_patrol for one in self.ways.members], np.bool_)
+        arrivals = self.arrivals()[self.timing.laws.packed.is_timed & ends]
         return float(arrivals[np.isfinite(arrivals)].max(initial=-np.inf))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,9 @@ from viaspline.fleet.crossing_paths import crossing_paths
 from viaspline.fleet.execution.delays import Delays
 from viaspline.fleet.execution.simulate_fleet import simulate_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.patrols.unrolled_patrols import unrolled
 from viaspline.fleet.plan_fleet import plan_by_priority, plan_fleet
+from viaspline.fleet.saved.load_fleet_plan import load_fleet_plan
 from viaspline.fleet.timelines import timelines_of
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import plan as plan_alone
@@ -265,3 +268,56 @@ def test_nobody_is_late_for_resting_between_two_rounds() -> None:
     assert plan.patrols.laps == {"r0": 1, "r1": 1}
     assert [one.late for one in timelines_of(plan)] == pytest.approx([0.0, 0.0], abs=1e-6)
     assert [one.waits for one in timelines_of(plan)] == [(), ()]
+
+
+@settings(max_examples=8, deadline=None)
+@given(dwell=st.floats(0.5, 20.0), laps=st.integers(0, 2), separation=st.floats(0.0, 1.0))
+def test_a_patrol_stands_at_its_start_once_a_lap(
+    dwell: float, laps: int, separation: float
+) -> None:
+    start = {"at": [0, 0], "dwell_s": dwell}
+    route = {"start": start, "via": [[20, 0], [20, 20]], "closed": True}
+    alone = plan_alone(fleet_of({"route": {**route, "laps": 1}}).members[0].mission)
+    others = [ride([10, -10], [10, 30]), patrol([10, 40], [10, 8])][: laps + 1]
+    plan = plan_fleet(fleet_of({"route": route}, *others, separation=separation))
+    assert plan.served
+    assert plan.patrols is not None
+    law, path = plan.plans["r0"].trajectory, plan.plans["r0"].path
+    lap = path.length / plan.plans["r0"].mission.route.laps
+    if len(others) == 1:  # nobody else sets the period
+        assert plan.patrols.period == pytest.approx(alone.trajectory.duration - dwell)
+    for k in range(1, plan.plans["r0"].mission.route.laps + 1):
+        stood = np.ptp(law.times[np.abs(law.distances - k * lap) < 1e-6])
+        assert stood >= dwell - 1e-6
+    with tempfile.TemporaryDirectory() as folder:
+        plan.save(folder)
+        assert load_fleet_plan(folder) == plan
+
+
+@pytest.mark.parametrize("speed", [0.1, 0.2])
+def test_who_finds_no_gap_between_laps_is_told_so_after_a_few_periods(
+    speed: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Laps aren't laid out for it, more and more, until there are too many for everybody."""
+    laid_out = []
+
+    def counted(*given: Any) -> Any:
+        laid_out.append(given[-1])
+        return unrolled(*given)
+
+    monkeypatch.setattr("viaspline.fleet.patrols.timed_patrols.unrolled", counted)
+    quick, slow = ({"radius_m": 0.4, "max_speed_mps": most} for most in (3.0, speed))
+    robots = [
+        {"name": "to and fro", "robot": "quick", **patrol([4, 0], [14, 0])},
+        {"name": "slow", "robot": "slow", **ride([9, -6], [9, 6])},
+        {"name": "apart", "robot": "quick", **ride([0, 20], [20, 20])},
+    ]
+    fleet = {"separation_m": 0.5, "robots": {"quick": quick, "slow": slow}, "fleet": robots}
+    plan = plan_fleet(Fleet.model_validate(fleet))
+    assert set(plan.plans) == {"to and fro", "apart"}
+    (missing,) = plan.not_served
+    assert (missing.name, missing.obstacles) == ("slow", ("to and fro",))
+    assert "finds no time between the laps of 'to and fro'" in missing.reason
+    assert missing.where is not None
+    assert abs(missing.where[1]) < 2.0
+    assert len(laid_out) <= 4

@@ -1,5 +1,6 @@
 """Robots of saved fleets, read again."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -58,3 +59,30 @@ def test_laps_with_a_limit_of_the_jerk_are_read_again(
     plan = vs.plan_fleet(vs.Fleet.model_validate(ROUND_AMONG_OTHERS))
     plan.save(tmp_path)
     assert vs.load_fleet_plan(tmp_path) == plan
+
+
+def test_a_robot_that_is_given_steering_to_correct_with_is_read_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its turns are wider than its steering allows: that is part of how its path was laid."""
+    monkeypatch.setattr("viaspline.report.fleet_results.fleet_picture", lambda plan, name: b"")
+    steered = {"ackermann": {"wheelbase_m": 1, "max_steer_deg": 32}, "delay_s": 0.1, "lag_s": 0.1}
+    footprint = [[-0.3, -0.35], [1.2, -0.35], [1.2, 0.35], [-0.3, 0.35]]
+    robot = {
+        "footprint": footprint, "clearance_m": 0.358, "max_speed_mps": 1.72,
+        "max_accel_mps2": 1.651, "max_jerk_mps3": 0.55, "drive": steered,
+        "localization": {"position_noise_m": 0.01, "heading_noise_deg": 0.5},
+    }  # fmt: skip
+    route = {"start": [21.71, 8.21], "via": [[10.31, 4.09], [15.25, 1.57]], "goal": [1.82, 12.92]}
+    plan = vs.plan_fleet(vs.Fleet.model_validate({
+        "world": {"bounds": [-6.18, -6.43, 30.47, 26.26]}, "spline": {"tension": 0.743},
+        "fleet": [{"name": "r1", "robot": "car", "route": route}], "robots": {"car": robot},
+    }))  # fmt: skip
+    asked, laid = plan.fleet.members[0].mission.robot, plan.plans["r1"].mission.robot
+    assert laid.turn_radius > asked.turn_radius + 0.05
+    plan.save(tmp_path)
+    assert vs.load_fleet_plan(tmp_path) == plan
+    told = json.loads((tmp_path / "r1" / "plan.json").read_text())
+    told["mission"]["turn_radius_m"] = 0.1 + asked.turn_radius
+    (tmp_path / "r1" / "plan.json").write_text(json.dumps(told))
+    assert vs.load_fleet_plan(tmp_path) != plan

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import tempfile
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.fleet.crossing_paths import crossing_paths
@@ -77,3 +80,43 @@ def test_who_is_left_out_keeps_its_place(crossing: FleetWays) -> None:
     for k in (1, 2):  # nobody has to be let pass
         end = timing.laws.packed.arrive[crossing.courses.packed.first[k + 1] - 1]
         assert end == pytest.approx(crossing.rides.alone[k])
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    dwell=st.floats(0.5, 30.0),
+    depart=st.floats(0.0, 10.0),
+    rest=st.sampled_from(["stay", "leave"]),
+    heeds=st.booleans(),
+)
+def test_a_robot_stands_at_its_goal_as_long_as_asked_also_when_it_was_slowed(
+    dwell: float, depart: float, rest: str, heeds: bool
+) -> None:
+    goal = {"at": [20, 20], "dwell_s": dwell}
+    robots = [
+        {"name": "a", "priority": 2, "route": {"start": [0, 0], "goal": [40, 0]}},
+        {"name": "b", "route": {"start": [20, -20], "goal": goal}, "rest": rest},
+        {"name": "c", "depart_s": depart, "route": {"start": [20, 40], "goal": [20, -30]}},
+    ]
+    if rest == "stay":
+        robots.pop()  # it couldn't pass
+    if not heeds:
+        robots.pop(0)
+    plan = vs.plan_fleet(vs.Fleet.model_validate({"separation_m": 1, "fleet": robots}))
+    assert plan.served
+    law = plan.plans["b"].trajectory
+    there = law.times[np.abs(law.distances - plan.plans["b"].path.length) < 1e-9]
+    assert np.ptp(there) == pytest.approx(dwell, abs=1e-9)
+    if "c" in plan.plans:  # passes there
+        times = np.arange(0.0, law.end_time, 0.01)
+        places = [
+            plan.plans[name].path.at_distance(plan.plans[name].trajectory.distance_at(times))
+            for name in "bc"
+        ]
+        assert np.hypot(*(places[0] - places[1]).T).min() >= 2.0 - 1e-6
+    run = vs.simulate_fleet(plan.fleet, None, plan)
+    assert run.arrivals["b"] == pytest.approx(law.end_time + run.delays["b"], abs=1e-6)
+    assert vs.FleetNavigator(plan, warm=False).expected()["b"] <= law.end_time + 1e-6
+    with tempfile.TemporaryDirectory() as folder:
+        plan.save(folder)
+        assert vs.load_fleet_plan(folder) == plan

@@ -15,13 +15,13 @@ from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
 from viaspline.fleet.execution.left_fleet import fleet_without
 from viaspline.fleet.execution.ways_from_rest import check_member, laid_from_rest
 from viaspline.fleet.execution.ways_in_the_air import laid_from_hover
-from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.laying.resting_places import RestingPlaces, rests_of
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.precedences import precedences_of
+from viaspline.fleet.robots_at_home import certify_all
 from viaspline.fleet.space.hover_places import hovers_of
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
@@ -186,7 +186,7 @@ def _rides(driven: DrivenFleet, before: FleetPlan, changed: str) -> FleetRides:
     leave = alone.leave + later
     leave[first[1:] - 1] = np.inf
     laws = alone._replace(arrive=alone.arrive + later, leave=leave)
-    lasts = alone.arrive[first[1:] - 1].copy()
+    lasts = alone.arrive[first[1:] - 1] + driven.rides.stays[first[1:] - 1]
     known, was = before.rides.laws.packed, before.courses.packed.first
     numbers = {name: k for k, name in enumerate(before.names) if name != changed}
     for robot, name in enumerate(driven.names):
@@ -229,7 +229,7 @@ def _planned(
     """The plan of a fleet that was changed, proven anew as a whole."""
     fleet = Fleet.of(members, before.fleet.separation_m)
     patrols = _patrols(before, plans, driven)
-    certificate = certify_fleet(driven.courses, driven.laws, fleet.separation_m)
+    certificate = certify_all(fleet, driven.courses, driven.laws)
     if patrols is not None:
         certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
     crossings = ordered_crossings(driven.courses, driven.crossings, driven.laws)

@@ -46,7 +46,9 @@ def expected_laws(
         leave[nodes] = alone.leave[nodes] + later[goes]
         gone = np.flatnonzero(along[1:] <= packed.progress[robot]) + nodes.start
         arrive[gone] = leave[gone] = -np.inf  # who joins may have stood there since ever
-        leave[nodes.stop - 1] = arrive[nodes.stop - 1] if fleet.rides.vanishes[robot] else np.inf
+        last = nodes.stop - 1
+        gone = arrive[last] + fleet.rides.stays[last]
+        leave[last] = gone if fleet.rides.vanishes[robot] else np.inf
     return PackedLaws(arrive, leave, alone.speed.copy(), ~state.out)
 
 

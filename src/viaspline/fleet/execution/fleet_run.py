@@ -97,8 +97,13 @@ class FleetRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
 
     @property
     def reached(self) -> bool:
-        """Whether all robots arrived."""
-        return len(self.arrivals) == len(self.names)
+        """Whether all robots arrived that have a law; who isn't served stands at its start."""
+        laws, first = self.laws.packed, self.courses.packed.first
+        drives = laws.is_timed & np.isfinite(laws.arrive[first[1:] - 1])
+        return all(
+            name in self.arrivals for name, is_driven in zip(self.names, drives, strict=True)
+            if is_driven
+        )  # fmt: skip
 
     @cached_property
     def certificate(self) -> FleetCertificate:

@@ -96,7 +96,8 @@ def _check_rounds(fleet: DrivenFleet, robot: int) -> None:
     """
     if fleet.rounds is None:
         return
-    arrives = float(fleet.laws.packed.arrive[fleet.courses.packed.first[robot + 1] - 1])
+    last = int(fleet.courses.packed.first[robot + 1]) - 1
+    arrives = float(fleet.laws.packed.arrive[last] + fleet.rides.stays[last])
     begins = fleet.lengths - fleet.rounds
     for patrol in np.flatnonzero((fleet.rounds > 0.0) & fleet.laws.packed.is_timed).tolist():
         if arrives > _comes(fleet, patrol, float(begins[patrol])):

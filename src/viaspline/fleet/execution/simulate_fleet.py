@@ -152,7 +152,7 @@ def _longest(fleet: DrivenFleet, delays: Delays, trouble: PackedTrouble, begin: 
     is_timed = fleet.laws.packed.is_timed
     planned = fleet.laws.packed.arrive[ends][is_timed].max(initial=begin) - begin
     slower = 1.0 / (1.0 - delays.slowed) / (1.0 - delays.lost)
-    alone = fleet.alone.arrive[ends].sum()
+    alone = (fleet.alone.arrive[ends] + fleet.rides.stays[ends]).sum()
     return float(min(60.0 + 10.0 * slower * planned + alone + trouble.halts.sum(), LONGEST_S))
 
 
@@ -160,7 +160,8 @@ def _run(fleet: DrivenFleet, ticks: FleetTicks) -> FleetRun:
     """What was driven, without the robots that have no law."""
     packed, is_timed = fleet.courses.packed, fleet.laws.packed.is_timed
     came = np.isfinite(ticks.arrived)
-    planned = fleet.laws.packed.arrive[packed.first[1:] - 1]
+    ends = packed.first[1:] - 1
+    planned = fleet.laws.packed.arrive[ends] + fleet.rides.stays[ends]
     late = np.subtract(ticks.arrived, planned, out=np.zeros(len(came)), where=came)
     late = np.round(late, ROUNDED) + 0.0
     leaves = np.where(fleet.rides.vanishes & came, ticks.arrived, np.inf)

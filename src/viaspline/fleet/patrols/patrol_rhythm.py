@@ -179,12 +179,18 @@ class _RoundTiming:
     @property
     def shortest(self) -> float:
         """The least period [s]."""
-        return max(float((self.rides.alone + self.stays).max()), SAME_S)
+        return max(float(self._takes.max()), SAME_S)
 
     @property
     def together(self) -> float:
         """All rounds behind each other [s]."""
-        return max(float((self.rides.alone + self.stays).sum()), SAME_S)
+        return max(float(self._takes.sum()), SAME_S)
+
+    @property
+    def _takes(self) -> Floats:
+        """From when each sets out until it can do so again, if it is alone [s], (n,)."""
+        rounds = self.rounds.values()
+        return np.array([set_out(one.trajectory).duration for one in rounds]) + self.stays
 
     def timed(self, period: float) -> dict[str, Trajectory] | tuple[float, str, str]:
         """The laws of all rounds by name; or what one takes [s], which, and who is in its way."""
@@ -272,5 +278,7 @@ class _RoundTiming:
 
 
 def _stay_between(lap: AnyPlan) -> float:
-    """How long a robot has to stand between two laps [s]."""
-    return max(driven_laps(lap, 2).trajectory.duration - 2.0 * lap.trajectory.duration, 0.0)
+    """How long a robot has to stand between two laps, beyond its stay at the end of one [s]."""
+    law = lap.trajectory
+    waits = law.duration - set_out(law).duration
+    return max(driven_laps(lap, 2).trajectory.duration + waits - 2.0 * law.duration, 0.0)

@@ -11,6 +11,8 @@ import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from viaspline.errors import GaveUpError
 from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.patrols.asked_patrols import AskedPatrols
@@ -23,7 +25,7 @@ from viaspline.fleet.timed_fleet import TimedFleet
 MOST_ROUNDS = 30
 """How often more laps are laid out, or a patrol begins later."""
 MOST_EXTENSIONS = 3
-"""So often a robot that finds no time between laps is let try among twice as many."""
+"""So often a robot that finds no time between laps is let try among more of them."""
 SPARE_SHARE = 1.2
 """Of the time until all others would have arrived if they were alone, for which laps are laid out
 at first."""
@@ -83,6 +85,7 @@ def _among(
     ends = (rides.packed.depart + rides.alone)[~asked.flags].max(initial=0.0)
     spare, whole = SPARE_SHARE * float(ends), periods * period
     later, extensions = dict.fromkeys(rhythm.laws, 0), 0
+    before: dict[int, int] = {}
     until = max(spare, *_set_out(rhythm, later).values()) + whole
     for _ in range(MOST_ROUNDS):
         ways, later = unrolled(asked, rhythm, later, until)
@@ -112,13 +115,32 @@ def _among(
         if last + whole <= until:
             patrols = FleetPatrols(period, rhythm.laps, begins, last, until)
             return replace(timed, patrols=patrols)
-        until = last + whole
+        behind = _behind_all_laps(asked, timed, until)
+        again = {robot: by for robot, by in behind.items() if robot in before}
+        if again:  # there were whole periods more, and nothing was new in them
+            return again
+        before, until = behind, last + whole
     raise GaveUpError(
         "the robots that end don't arrive, however many laps their patrols drive",
         where=next(iter(rhythm.rounds.values())).path.stops[0][0].at,
         remedy="give patrols a number of laps",
         tried=(f"{MOST_ROUNDS} times more laps",),
     )
+
+
+def _behind_all_laps(asked: AskedPatrols, timed: TimedFleet, until: float) -> dict[int, int]:
+    """Robots that arrive when no laps are laid out any more, each with a patrol that it waits for.
+
+    They find no gap between laps, and wait for these to be over, which they never are.
+    """
+    packed, found = timed.ways.crossings.packed, {}
+    for robot in np.flatnonzero(timed.arrivals() > until).tolist():
+        boxes = slice(int(packed.box_first[robot]), int(packed.box_first[robot + 1]))
+        met = packed.other[boxes]
+        met = met[asked.flags[met]]
+        if np.isfinite(timed.arrivals()[robot]) and not asked.flags[robot] and len(met):
+            found[robot] = int(np.bincount(met).argmax())
+    return found
 
 
 def _set_out(rhythm: PatrolRhythm, later: Mapping[str, int]) -> dict[str, float]:

@@ -149,7 +149,7 @@ def _compared(
             continue
         laps, plan = rhythm.laps[name], ways.plans[robot]
         ends = seams_of(plan.path, plan.mission.route.laps, spans_before_laps(plan))[::laps]
-        begun = rhythm.rounds[name].trajectory
+        begun = set_out(rhythm.rounds[name].trajectory)
         begun = begun.delayed(begins[name] - begun.start_time)
         law = repeated_law(begun, ends - ends[0], rhythm.period)
         if ends[0] > 0.0:

@@ -8,10 +8,11 @@ from typing import Final
 
 from viaspline.bounded_file import is_folder
 from viaspline.fleet.crossings import crossings_of
-from viaspline.fleet.fleet_certificate import FleetCertificate, certify_fleet
+from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import Precedence, precedences_of
+from viaspline.fleet.robots_at_home import certify_all
 from viaspline.fleet.saved.fleet_file import FleetFile
 from viaspline.fleet.saved.saved_laws import SavedLaws
 from viaspline.fleet.saved.saved_patrols import checked_patrols, for_ever
@@ -67,7 +68,7 @@ def load_fleet_plan(folder: str | Path, fleet: AskedFleet | None = None) -> Flee
     laws.check(asked, plans)
     record = laws.record
     patrols = checked_patrols(told, asked, plans)
-    certificate = certify_fleet(record.courses, record.laws, asked.separation_m)
+    certificate = certify_all(asked, record.courses, record.laws)
     certificate = replace(certificate, repeats=for_ever(patrols))
     _check_proof(told, certificate)
     crossings = crossings_of(record.courses)

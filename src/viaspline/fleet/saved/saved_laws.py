@@ -105,10 +105,11 @@ class SavedLaws:
     def _check_law(self, robot: int, plan: Plan | SpatialPlan, fresh: FleetCourses) -> None:
         """See that the law at the nodes is that of the robot's plan."""
         nodes, laws = self._nodes(robot), self.record.laws.packed
-        said, name = static_laws(fresh, [_on_nodes(plan, fresh).trajectory]).packed, fresh.names[0]
+        law, name = _on_nodes(plan, fresh).trajectory, fresh.names[0]
+        said = static_laws(fresh, [law]).packed
         leaves = bool(self.record.rides.packed.vanishes[robot])
         if leaves:
-            said.leave[-1] = said.arrive[-1]
+            said.leave[-1] = law.end_time
         columns = ("arrive", "leave", "speed")
         if not laws.is_timed[robot] or not all(
             _near(getattr(said, one), getattr(laws, one)[nodes]) for one in columns

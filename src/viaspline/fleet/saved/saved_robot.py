@@ -118,8 +118,15 @@ class SavedRobots:
         return mission.model_copy(update={"route": route})
 
     def _as_planned(self, member: FleetMember, file: PlanFile, world: World) -> Mission:
-        """The mission of a robot as its path was laid: its order, tension and laps are settled."""
+        """The mission of a robot as its path was laid: its order, tension and laps are settled.
+
+        So is by how much its turns are wider than its steering allows, to correct with.
+        """
         mission = ordered(member.mission, world)
+        own = mission.robot.turn_radius
+        if own is not None and (radius := file.number("mission", "turn_radius_m")) > own:
+            robot = mission.robot.model_copy(update={"min_turn_radius_m": radius})
+            mission = mission.model_copy(update={"robot": robot})
         if mission.spline.tension == "auto":
             said = file.numbers("mission", "tension").tolist()
             tension = tuple(said) if isinstance(said, list) else said

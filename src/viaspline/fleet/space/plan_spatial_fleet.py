@@ -13,7 +13,6 @@ from itertools import permutations
 from typing import Final
 
 from viaspline.fleet.courses import AnyPlan
-from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.laying_workers import LayingWorkers
@@ -21,6 +20,7 @@ from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.patrols.timed_patrols import timed_patrols
 from viaspline.fleet.precedences import precedences_of
+from viaspline.fleet.robots_at_home import certify_all
 from viaspline.fleet.space.lay_in_space import lay_in_space
 from viaspline.fleet.space.lay_round_path import led_apart
 from viaspline.fleet.space.timed_past_moving import (
@@ -170,7 +170,7 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
     ways, timing, patrols = timed.ways, timed.timing, timed.patrols
     courses, names = ways.courses, ways.courses.names
     crossings = ordered_crossings(courses, ways.crossings, timing.laws)
-    certificate = certify_fleet(courses, timing.laws, fleet.separation_m)
+    certificate = certify_all(fleet, courses, timing.laws)
     if patrols is not None:
         certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
     return FleetPlan(

@@ -118,7 +118,8 @@ class WaysPastMoving(FleetWays):
         laws, ends = timing.laws.packed, self.courses.packed.first[1:] - 1
         served = laws.is_timed & np.isfinite(laws.arrive[ends])
         served[list(timing.blocked)] = False
-        return np.where(served, laws.arrive[ends], -np.inf) + self._holds
+        there = laws.arrive[ends] + self.rides.packed.stays[ends]
+        return np.where(served, there, -np.inf) + self._holds
 
     def _of_robots(self, timing: Timing) -> Timing:
         """A timing without what moves."""

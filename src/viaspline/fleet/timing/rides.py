@@ -56,7 +56,7 @@ def rides_of(
     first = courses.packed.first
     ends = first[1:] - 1
     stays = laws.leave - laws.arrive
-    stays[ends] = 0.0
+    stays[ends] = [plan.trajectory.end_time for plan in plans] - laws.arrive[ends]
     lasts = np.zeros_like(stays)
     lasts[:-1] = laws.arrive[1:] - laws.leave[:-1]
     lasts[ends] = 0.0
@@ -82,6 +82,11 @@ def rides_of(
         np.array([plan.trajectory.duration for plan in plans]),
         FleetLaws(by_clock),
     )
+
+
+def goal_stays(courses: FleetCourses, rides: FleetRides) -> Floats:
+    """How long each robot has to stand at its goal until it has arrived [s], (n,)."""
+    return rides.packed.stays[courses.packed.first[1:] - 1]
 
 
 def _limits(plan: Plan | SpatialPlan) -> Limits:

@@ -42,7 +42,7 @@ class Timing:
     blocked: dict[int, int]
 
     def arrivals(self, courses: FleetCourses) -> Floats:
-        """When each robot arrives; infinite for those that have no law [s], (n,).
+        """When each robot comes to its goal; infinite for those that have no law [s], (n,).
 
         Args:
             courses: The paths of the robots.

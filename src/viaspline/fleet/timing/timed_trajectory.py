@@ -42,4 +42,5 @@ def timed_trajectory(
         for k in np.flatnonzero(waits > SAME_S):
             law = law.waiting(float(along[k]), float(waits[k]))
         return law
-    return law_through_nodes(along, laws.packed.speed[nodes], arrive, leave, static)
+    law = law_through_nodes(along, laws.packed.speed[nodes], arrive, leave, static)
+    return law.waiting(float(along[-1]), float(stays[-1])) if stays[-1] > SAME_S else law
