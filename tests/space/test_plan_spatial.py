@@ -187,3 +187,37 @@ def test_a_drone_lands_right_under_where_it_is(
     with tempfile.TemporaryDirectory() as folder:
         plan.save(folder)
         assert vs.load_plan(folder) == plan
+
+
+ROOF = {"name": "roof", "box": {"min": [15, -3, 5], "max": [25, 3, 6]}}
+
+
+HIGH: dict[str, object] = {"start": [0, 0, 9], "via": [[10, 0, 9]]}
+
+
+@pytest.mark.parametrize("at", [[20.0, 0.0], [13.9, 0.0], [20.0, 4.4]])
+@pytest.mark.parametrize(
+    ("route", "error"),
+    [
+        (HIGH, vs.MissionError),
+        ({"start": [0, 0], "takeoff": {"to_agl_m": 9}}, vs.MissionError),
+        ({**HIGH, "via": [[10, 0, 9], [5, 5, 9]], "order": "shortest"}, NoPathError),
+    ],
+)
+def test_no_landing_leads_through_a_roof(
+    route: dict[str, object], error: type[Exception], at: list[float]
+) -> None:
+    robot = {"radius_m": RADIUS, "half_height_m": HALF, "clearance_m": CLEARANCE}
+    asked = {"world": {"ground": {"flat_m": 0}, "known": [ROOF]}, "robot": robot}
+    with pytest.raises(error, match=r"descent to the landing .* 'roof'"):
+        vs.plan(Mission.model_validate({**asked, "route": {**route, "land": {"at": at}}}))
+    beside = {**route, "land": {"at": [20, 9]}}
+    assert vs.plan(Mission.model_validate({**asked, "route": beside})).certificate.holds
+
+
+def test_a_landing_under_a_roof_is_flown_from_under_it() -> None:
+    robot = {"radius_m": RADIUS, "half_height_m": HALF, "clearance_m": CLEARANCE}
+    route = {"start": [0, 0, 9], "via": [[10, 0, 2.5]], "land": {"at": [20, 0]}}
+    world = {"ground": {"flat_m": 0}, "known": [ROOF]}
+    plan = vs.plan(Mission.model_validate({"world": world, "robot": robot, "route": route}))
+    assert plan.certificate.holds

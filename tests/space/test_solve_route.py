@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.mission.shapes.solids import Prism
@@ -90,7 +92,7 @@ def test_what_stands_in_the_way_of_a_take_off_counts() -> None:
     roof = Prism(RoundedRing([[(50.0, 50.0)]], 4.0), 8.0, 9.0)
     world = SpatialWorld.of([roof], ["roof"], ground=0.0)
     asked = problem(world, [[50.0, 50, 20], [90, 50, 20]], takeoff=np.array([50.0, 50, 0]))
-    found = solve_route(asked, OverAll())
-    assert not found.certificate.holds
-    assert found.certificate.obstacle == "roof"
-    assert found.certificate.tightest_distance < 20.0
+    with pytest.raises(NoPathError, match="the climb of take-off") as error:
+        solve_route(asked, OverAll())
+    assert error.value.obstacles == ("roof",)
+    assert error.value.where[2] < 20.0

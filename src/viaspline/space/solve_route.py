@@ -15,7 +15,7 @@ import numpy as np
 from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import GaveUpError, PlanningError
+from viaspline.errors import GaveUpError, NoPathError, PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
@@ -66,7 +66,10 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
     found = turns.of(found)
     path, airborne = _whole_path(problem, found)
     ledger = tuple(found.entries[leg] for leg in sorted(found.entries))
-    return SpatialSolution(path, whole_proof(problem, path, airborne), ledger, airborne)
+    proof = whole_proof(problem, path, airborne)
+    if not proof.holds:
+        raise _upright_leg_blocked(problem, proof, airborne)
+    return SpatialSolution(path, proof, ledger, airborne)
 
 
 @dataclass(frozen=True)
@@ -158,6 +161,30 @@ def _gave_up(problem: SpatialProblem, stuck: StuckLegError) -> GaveUpError:
         remedy="give the route a via point beside it, or ask for less clearance",
         tried=("the spline", "the taut ways with corners as tight as can be"),
         via=last.name,
+    )
+
+
+def _upright_leg_blocked(
+    problem: SpatialProblem, proof: Certificate, airborne: tuple[float, float]
+) -> NoPathError:
+    """That there is something in the way straight up or down, where there is no other way.
+
+    What is airborne was laid clear; where via points are served in an order that was found, it
+    isn't known before from where the robot comes down.
+    """
+    is_climb = proof.tightest_distance <= airborne[0]
+    which, remedy = (
+        ("climb of take-off", "begin where the sky is free")
+        if is_climb
+        else ("descent to the landing", "land where the sky is free, or come from a lower place")
+    )
+    name = proof.obstacle or "an obstacle"
+    return NoPathError(
+        f"the {which} comes within {max(proof.clearance, 0.0):.3g} m of '{name}', and "
+        f"{problem.clearance:g} m are to be kept",
+        where=proof.tightest_at,
+        remedy=remedy,
+        obstacles=(name,),
     )
 
 

@@ -77,6 +77,7 @@ def _visits(partial: PartialMission, space: SpatialParts) -> Iterator[FlownPlace
         if not math.isnan(z):
             path = ("route", "land", "at")
             yield FlownPlace("the landing", (x, y, z), path, path, on_ground=True)
+            yield from _descent((x, y, z), path, home, partial, space)
 
 
 def _takeoff(
@@ -91,6 +92,21 @@ def _takeoff(
     yield FlownPlace("the end of take-off", (x, y, top), path, plan_path)
     # What is wrong with its end is wrong with the climb as well, and told once.
     yield FlownPlace("the climb of take-off", (x, y, z), path[:2], path, on_ground=True, top=top)
+
+
+def _descent(
+    landing: Place, path: Path, home: float, partial: PartialMission, space: SpatialParts
+) -> Iterator[FlownPlace]:
+    """The way down from as high as the last via point, where it is known which that is."""
+    point = partial.points[-1][1] if partial.points else None
+    if point is None or not (partial.in_given_order or len(partial.points) == 1):
+        return
+    top = place_of(point, space.ground)[2]
+    if len(partial.points) == 1 and space.takeoff is not None:
+        top = home + space.takeoff.to_agl_m
+    if top > landing[2]:  # which it isn't if its height isn't known
+        label = "the descent to the landing"
+        yield FlownPlace(label, landing, path[:2], path, on_ground=True, top=top)
 
 
 def _low_takeoff(partial: PartialMission, space: SpatialParts) -> Iterator[UnplacedFault]:
