@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from strange_flight_oracle import Upright
 
 import viaspline as vs
 from viaspline.fleet.fleet_plan import FleetPlan
@@ -33,7 +34,7 @@ class DrivenRobot:
         rest: ``stay`` or ``leave``.
         accel: By how much it speeds up and brakes [m/s²].
         fastest: [m/s].
-        radius: Of its body [m].
+        body: Round its place: a circle in the plane, a ball or an upright cylinder in space.
         depart: When it may set out [s].
         patrols: Whether it never ends.
     """
@@ -44,7 +45,7 @@ class DrivenRobot:
     rest: str
     accel: float
     fastest: float
-    radius: float
+    body: Upright
     depart: float
     patrols: bool = False
     number: int = 0
@@ -109,8 +110,8 @@ class DrivenRobot:
         self.rows.append((time, self.number, np.nan if self.is_gone else self.along))
 
     def places(self, times: Any) -> Any:
-        """Where it was, (t, 2); not a number where it wasn't there."""
-        found = np.full((len(times), 2), np.nan)
+        """Where it was, (t, 3); not a number where it wasn't there."""
+        found = np.full((len(times), 3), np.nan)
         rows = np.array(self.rows)
         at = np.rint(rows[:, 0] / TICK_S).astype(int)
         for number, path in enumerate(self.paths):
@@ -120,8 +121,31 @@ class DrivenRobot:
                 lap = path.length / self.laps[number]
                 along = np.mod(along, lap)
             if mine.any():
-                found[at[mine]] = np.array(path.at_distance(along))[:, :2]
+                found[at[mine]] = in_space(np.array(path.at_distance(along)))
         return found
+
+
+def in_space(places: Any) -> Any:
+    """Places with a height, which is 0 in the plane, (n, 3) [m]."""
+    return np.column_stack([places, np.zeros((len(places), 3 - places.shape[1]))])
+
+
+def body_of(robot: Any) -> Upright:
+    """What counts as a robot's body beside others."""
+    if robot.footprint is not None:
+        return Upright(float(np.hypot(*np.array(robot.footprint, float).T).max()), 0.0, 0.0)
+    if not robot.is_spatial:
+        return Upright(float(robot.radius_m), 0.0, 0.0)
+    return Upright.of(
+        {"radius_m": robot.radius_m}
+        | ({} if robot.half_height_m is None else {"half_height_m": robot.half_height_m})
+    )
+
+
+def gaps(one: Upright, other: Upright, offset: Any) -> Any:
+    """Free space between two bodies that are so far off each other, (n,) [m]."""
+    both = Upright(one.radius + other.radius, one.half + other.half, one.margin + other.margin)
+    return both.free(np.hypot(offset[:, 0], offset[:, 1]), np.abs(offset[:, 2]))
 
 
 class NavigatorDrive:
@@ -130,10 +154,11 @@ class NavigatorDrive:
     Args:
         plan: What is driven.
         random: Of all that happens.
+        field: Places of the plane up to which robots are sent [m].
     """
 
-    def __init__(self, plan: FleetPlan, random: np.random.Generator) -> None:
-        self.plan, self.random = plan, random
+    def __init__(self, plan: FleetPlan, random: np.random.Generator, field: float = 22.0) -> None:
+        self.plan, self.random, self.field = plan, random, field
         self.nav = vs.FleetNavigator(plan, warm=False)
         self.happened: dict[str, int] = {}
         self.robots: dict[str, DrivenRobot] = {}
@@ -145,16 +170,10 @@ class NavigatorDrive:
 
     def _robot(self, member: vs.FleetMember, plan: vs.Plan) -> DrivenRobot:
         robot = member.mission.robot
-        footprint = robot.footprint
-        radius = (
-            float(robot.radius_m)
-            if footprint is None
-            else float(np.hypot(*np.array(footprint, float).T).max())
-        )
         return DrivenRobot(
             member.name, [plan.path], [plan.mission.route.laps], member.rest,
             0.9 * robot.max_accel_mps2, robot.max_speed_mps * float(self.random.uniform(0.6, 1.0)),
-            radius, member.mission.route.depart_s, member.mission.route.is_patrol,
+            body_of(robot), member.mission.route.depart_s, member.mission.route.is_patrol,
         )  # fmt: skip
 
     def faults(self) -> Iterator[str]:
@@ -208,18 +227,13 @@ class NavigatorDrive:
         times = np.arange(0, round(end / TICK_S)) * TICK_S
         names = list(self.robots)
         places = {name: self.robots[name].places(times) for name in names}
+        bodies = {name: one.body for name, one in self.robots.items()}
         for name, member in self.standing.items():
-            places[name] = np.tile(
-                np.array(member.mission.route.start.at[:2], float), (len(times), 1)
-            )
-        radii = {name: one.radius for name, one in self.robots.items()}
-        radii |= {
-            n: self._robot(m, next(iter(self.plan.plans.values()))).radius
-            for n, m in self.standing.items()
-        }
+            places[name] = np.tile(self._home(member), (len(times), 1))
+            bodies[name] = body_of(member.mission.robot)
         for i, one in enumerate(names):
             for other in [*names[:i], *self.standing]:
-                gap = np.hypot(*(places[one] - places[other]).T) - radii[one] - radii[other]
+                gap = gaps(bodies[one], bodies[other], places[one] - places[other])
                 if (
                     np.isfinite(gap).any()
                     and np.nanmin(gap) < self.plan.fleet.separation_m - SLACK_M
@@ -229,6 +243,10 @@ class NavigatorDrive:
                         f"drive: {one} and {other} {gap[k]:.4f} m apart at {times[k]:.2f} s: "
                         f"{self.happened}"
                     )
+
+    def _home(self, member: vs.FleetMember) -> Any:
+        """Where a robot stands that isn't served."""
+        return np.resize([*member.mission.route.start.at, 0.0], 3)
 
     def _follows_held(self, name: str, held: set[str]) -> bool:
         """Whether somebody whom it waits for is held, or has no way."""
@@ -259,14 +277,24 @@ class NavigatorDrive:
             one.halts_until = time + float(self.random.uniform(2.0, 20.0))
         elif what == "elsewhere" and not one.patrols:
             self.nav = self.nav.stopping(one.name)
-            self.wants[one.name] = (time, self.random.uniform(1.0, 22.0, 2).round(2).tolist())
+            self.wants[one.name] = (time, self._somewhere(self.plan.fleet.members[0].mission))
         elif what == "more" and not self._add(time):
             return
         self.happened[what] = self.happened.get(what, 0) + 1
 
+    def _somewhere(self, like: vs.Mission) -> list[float]:
+        """A random place of the field; in space with a height as one of the fleet's starts."""
+        members = self.plan.fleet.members
+        ends = np.array([one.mission.route.start.at[:2] for one in members])
+        low, high = np.minimum(ends.min(axis=0), 0.5), np.maximum(ends.max(axis=0), self.field)
+        place = self.random.uniform(low, high).round(2).tolist()
+        if len(like.route.start.at) == 3:
+            place.append(float(like.route.start.at[2]))
+        return place
+
     def _add(self, time: float) -> bool:
-        start, goal = self.random.uniform(0.5, 23.5, (2, 2)).round(2).tolist()
         like = self.plan.fleet.members[0].mission
+        start, goal = self._somewhere(like), self._somewhere(like)
         data = {"world": like.world, "robot": like.robot, "route": {"start": start, "goal": goal}}
         name = f"new {len(self.robots)}"
         here = (
@@ -278,7 +306,8 @@ class NavigatorDrive:
             else []
         )
         for one, places in zip(self.robots.values(), here, strict=False):
-            if len(places) and np.hypot(*(places[-1] - start)) < one.radius + 3.0:
+            near = np.hypot(*(places[-1, :2] - start[:2])) if len(places) else np.inf
+            if near < one.body.radius + one.body.margin + 3.0:
                 return False
         try:
             member = vs.FleetMember(name, vs.Mission.model_validate(data))
@@ -300,7 +329,7 @@ class NavigatorDrive:
             if one.speed > 0.0 or time < since + 2.0:
                 continue
             try:
-                route = Route.model_validate({"start": [0, 0], "goal": goal})
+                route = Route.model_validate({"start": [0.0] * len(goal), "goal": goal})
                 self.nav = self.nav.rerouted(name, route)
                 self.happened["sent elsewhere"] = self.happened.get("sent elsewhere", 0) + 1
             except vs.PlanningError:
