@@ -11,6 +11,7 @@ import shapely
 from strange_oracle import STANDS_MPS, Asked, Faults, bezier, filled, route_places, table
 
 HAIR_MPS = 2e-3
+SPOT_RAD = 0.1
 
 
 def run_faults(asked: Asked, run: dict[str, Any], run_csv: str) -> Faults:
@@ -21,6 +22,7 @@ def run_faults(asked: Asked, run: dict[str, Any], run_csv: str) -> Faults:
     yield from met_faults(asked, run, rows)
     if "drive" not in asked.robot and "localization" not in asked.robot:
         yield from driven_limit_faults(asked, run, rows)
+        yield from driven_turn_faults(asked, rows)
     for replan in run["replans"]:
         if replan["mode"] == "from_rest":
             continue
@@ -140,3 +142,19 @@ def driven_limit_faults(asked: Asked, run: dict[str, Any], rows: np.ndarray) -> 
         )
         if inside.any() and v[inside].max() > zone["max_speed_mps"] * 1.005 + 2e-3:
             yield "driven zone", f"{v[inside].max():.4f} m/s in one of {zone['max_speed_mps']}"
+
+
+def driven_turn_faults(asked: Asked, rows: np.ndarray) -> Faults:
+    """Turns on the spot of a robot that follows exactly which are faster than its yaw rate.
+
+    A table has the robot look along its path; so a turn counts from before a stand to after it.
+    """
+    if "max_yaw_rate_degps" not in asked.robot or asked.held_heading is not None:
+        return
+    most = math.radians(asked.robot["max_yaw_rate_degps"])
+    t, headings = rows["time_s"], rows["heading_rad"]
+    rolls = np.flatnonzero(rows["speed_mps"] >= STANDS_MPS)
+    for i, j in pairwise(rolls):
+        turned = abs(math.remainder(headings[j] - headings[i], math.tau))
+        if j > i + 1 and turned > most * (t[j] - t[i]) + SPOT_RAD:
+            yield "driven turn", f"{turned:.3f} rad from {t[i]:.2f} to {t[j]:.2f} s"

@@ -146,3 +146,14 @@ def test_the_oracle_sees_a_drive_that_is_told_otherwise_than_it_was(
     assert "run clearance" in {word for word, _ in drives.run_faults(asked, nearer, driven)}
     silent = run | {"reached": False}
     assert "verdict" in {word for word, _ in drives.run_faults(asked, silent, driven)}
+
+
+def test_the_oracle_sees_a_turn_on_the_spot_that_takes_no_time(
+    modules: Any, tmp_path: Path
+) -> None:
+    _, oracle, _, drives = modules
+    rows = "time_s,speed_mps,heading_rad\n0,0.1,0\n0.05,0,0\n{0},0,1.5\n{1},0.1,1.5\n"
+    for late, words in ((1.0, {"driven turn"}), (3.0, set())):
+        table = oracle.table(rows.format(late, late + 0.05))
+        asked = oracle.Asked(changed(max_yaw_rate_degps=30), tmp_path)
+        assert {word for word, _ in drives.driven_turn_faults(asked, table)} == words

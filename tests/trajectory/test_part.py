@@ -11,7 +11,7 @@ from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.path import Path
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.part import retime_part
-from viaspline.trajectory.retime import retime
+from viaspline.trajectory.retime import braking, retime
 
 LIMITS = Limits(max_speed=2.0, max_accel=1.0, max_lateral_accel=0.5, max_jerk=2.0)
 
@@ -64,3 +64,18 @@ def test_a_time_law_goes_on_as_another_where_that_takes_over() -> None:
             for found, true in zip(both.state_at(times)[:2], law.state_at(times)[:2], strict=True):
                 np.testing.assert_allclose(found, true, atol=1e-9)
         assert (np.diff(both.times) >= 0.0).all()
+
+
+@pytest.mark.parametrize("dwell", [None, 2.0])
+def test_what_comes_before_a_rest_stays_though_the_next_law_begins_after_it(
+    dwell: float | None,
+) -> None:
+    """The end of a braking was left out, and the robot stood at once."""
+    stops = [] if dwell is None else [Station(bent().length, dwell)]
+    old = retime(bent(), LIMITS, stops)
+    later = braking(bent().length, 0.0, LIMITS.brake, old.end_time + 1.0)
+    both = old.followed_by(later, since=old.end_time - 2.5)
+    times = np.linspace(old.end_time - 2.5, old.end_time + 1.0, 60)
+    for found, true in zip(both.state_at(times)[:2], old.state_at(times)[:2], strict=True):
+        np.testing.assert_allclose(found, true, atol=1e-9)
+    assert len(both.accelerations) == len(both.times) - 1

@@ -14,6 +14,7 @@ from viaspline.planner import Plan
 from viaspline.robot.navigation.arrivals import note_arrivals
 from viaspline.robot.navigation.at_start import set_off
 from viaspline.robot.navigation.drive_task import DriveTask
+from viaspline.robot.navigation.facing import facing_at
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.navigation_state import NavigationState
@@ -150,7 +151,9 @@ def _followed(now: _StepSoFar) -> _StepSoFar:
         )
         watch, schedule = motion.watch, motion.schedule
         log = log.with_events(*motion.events)
+    facing = facing_at(progress, schedule.path, schedule.trajectory, task.spot_turning, now.time)
     progress, waiting = track(progress, schedule, inputs.measured, now.time)
+    progress = replace(progress, facing=facing)
     # who is held still isn't waited for: it stands when it has had the time for that
     schedule = waiting if inputs.stale is None else schedule
     progress, log = note_arrivals(task, progress, schedule, log)

@@ -193,11 +193,10 @@ class Trajectory(ShownValue, ComparedByValue):
         begin = later.start_time
         first = max(int(self.times.searchsorted(since, side="right")) - 1, 0)
         last = int(self.times.searchsorted(begin, side="left"))
-        if last <= first or self.times[first] >= begin:
+        if last <= first or self.times[first] >= begin or since >= self.end_time:
             return later
-        if last > len(self.accelerations):
-            return later  # it rested by then
-        kept = slice(first, last)
+        before = self if last < len(self.times) else self._standing_until(begin)
+        kept = slice(first, min(last, len(before.accelerations)))
         passed = tuple(
             stop
             for stop in self.stations
@@ -205,20 +204,25 @@ class Trajectory(ShownValue, ComparedByValue):
         )
         joined = replace(
             later,
-            distances=np.concatenate((self.distances[kept], later.distances)),
-            speeds=np.concatenate((self.speeds[kept], later.speeds)),
-            times=np.concatenate((self.times[kept], later.times)),
-            accelerations=np.concatenate((self.accelerations[kept], later.accelerations)),
+            distances=np.concatenate((before.distances[kept], later.distances)),
+            speeds=np.concatenate((before.speeds[kept], later.speeds)),
+            times=np.concatenate((before.times[kept], later.times)),
+            accelerations=np.concatenate((before.accelerations[kept], later.accelerations)),
             stations=(*passed, *later.stations),
             over_jerk_until=self._over_jerk_with(later),
         )
-        if self.changes is None and later.changes is None:
+        if before.changes is None and later.changes is None:
             return joined
         changes, jerks = (
-            np.concatenate((before[kept], after_it))
-            for before, after_it in zip(self._bends, later._bends, strict=True)
+            np.concatenate((old[kept], new))
+            for old, new in zip(before._bends, later._bends, strict=True)
         )
         return replace(joined, changes=changes, jerks=jerks)
+
+    def _standing_until(self, time: float) -> Trajectory:
+        """The time law that stays where it ends until a later time [s]."""
+        end = len(self.times) - 1
+        return self.waiting_after(end, time - self.end_time)
 
     def _over_jerk_with(self, later: Trajectory) -> float | None:
         """Up to where the jerk is exceeded on this law up to a later one, and on that [m]."""

@@ -5,9 +5,11 @@ Tested through ``robot/test_navigator``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from viaspline.machine.pose_filter import PoseFilter
+from viaspline.machine.turns_on_spot import heading_onward
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import MovingThings
 from viaspline.planner import Plan
@@ -45,7 +47,9 @@ def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     if task.model is not None:
         pose_filter = PoseFilter.of(robot, period)
         controller = Controller.of(task.model, period, path, plan.trajectory, pose_filter)
-    progress = Progress(time=0.0, controller=controller)
+    turns = task.model is None and math.isfinite(task.spot_turning.rate)
+    facing = heading_onward(path, 0.0) if turns else None
+    progress = Progress(time=0.0, controller=controller, facing=facing)
     moving = MovingObstacles.known(task.mission)
     hits = None
     things = _things_that_move(task.mission)

@@ -37,6 +37,7 @@ class Progress:
         finished: Whether the drive is over, at the goal or not.
         controller: The controller of a robot with a drive; None if it follows exactly.
         set_off: Whether there has been a step.
+        facing: Which way a robot without a drive looks [rad]; None where it turns in no time.
     """
 
     time: float
@@ -48,3 +49,4 @@ class Progress:
     finished: bool = False
     controller: Controller | None = None
     set_off: bool = False
+    facing: float | None = None

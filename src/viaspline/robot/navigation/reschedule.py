@@ -24,6 +24,7 @@ from viaspline.machine.turns_on_spot import (
 )
 from viaspline.robot.navigation.certain_way import certain_until, sighted_until
 from viaspline.robot.navigation.drive_task import DriveTask
+from viaspline.robot.navigation.facing import facing_at, turn_to
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.law_horizon import (
     LEAST_PART_M,
@@ -189,11 +190,9 @@ def trajectory_within_sight(
     if end < path.length:
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
     stops = with_turns(path, task.spot_turning, stops, distance)
-    turn = _turn_before_leaving(task, progress, path, distance)
+    turn = _turn_before_leaving(task, progress, schedule, path, distance, time)
     if turn is not None and speed < STANDING_MPS and distance < end:
-        stops, speed = [turn, *stops], 0.0
-    if task.model is None and (left := _turn_left(schedule.trajectory, stops, distance, time)):
-        stops, speed = [*stops, left], 0.0
+        stops, speed = [*_turning(turn, stops), *stops], 0.0
     part, motion = (distance, end), (speed, accel)
     if len(knowledge.moving):
         trajectory = law_past(task, knowledge.moving, schedule, path, stops, part, motion, time)
@@ -205,13 +204,22 @@ def trajectory_within_sight(
 
 
 def _turn_before_leaving(
-    task: DriveTask, progress: Progress, path: Path, distance: float
+    task: DriveTask,
+    progress: Progress,
+    schedule: Schedule,
+    path: Path,
+    distance: float,
+    time: float,
 ) -> Station | None:
     """The stay of a robot that stands, if it looks another way than its path leads on."""
     model, controller = task.model, progress.controller
-    if model is None or controller is None or controller.believed is None:
-        return None
-    if not turns_where_it_stands(model):
+    if model is None:
+        turning = task.spot_turning
+        facing = facing_at(progress, schedule.path, schedule.trajectory, turning, time)
+        if facing is None:
+            return None
+        return turn_to(facing, path, distance, turning, is_new=path is not schedule.path)
+    if controller is None or controller.believed is None or not turns_where_it_stands(model):
         return None
     way = heading_onward(path, distance)
     angle = math.remainder(way - float(controller.believed[HEADING]), math.tau)
@@ -220,24 +228,10 @@ def _turn_before_leaving(
     return Station(distance, SpotTurning.of_model(model).time(angle), TURN)
 
 
-def _turn_left(
-    law: Trajectory, stops: Sequence[Station], distance: float, time: float
-) -> Station | None:
-    """What is left of the stay in which a robot without a drive turns, if it is there.
-
-    Args:
-        law: By which it comes there, or has stood there since.
-        stops: Of the new law.
-        distance: Where the robot is [m].
-        time: When the new law begins [s].
-    """
-    here = [stop for stop in law.stations if abs(stop.distance - distance) <= SAME_PLACE_M]
-    if not any(stop.name == TURN for stop in here):
-        return None
-    stood = max(time - float(law.time_at(here[0].distance)), 0.0)
-    stays = sum(stop.dwell for stop in stops if abs(stop.distance - distance) <= SAME_PLACE_M)
-    left = sum(stop.dwell for stop in here) - stood - stays
-    return Station(distance, left, TURN) if left > 0.0 else None
+def _turning(turn: Station, stops: Sequence[Station]) -> tuple[Station, ...]:
+    """What a turn takes longer than the stays at its place, in which the robot turns as well."""
+    stays = sum(stop.dwell for stop in stops if abs(stop.distance - turn.distance) <= SAME_PLACE_M)
+    return (replace(turn, dwell=turn.dwell - stays),) if turn.dwell > stays else ()
 
 
 def _leaving_angle(task: DriveTask) -> float:

@@ -126,10 +126,8 @@ def stoppable(
     if after.trajectory is before.trajectory:
         meant = rescheduled(task, progress, knowledge, after, speed)
         meant = replace(meant, timed_at=after.timed_at)  # it is asked all the same for other ways
-    waits = progress.controller is None and _stands_until(
-        meant.trajectory, now, now + task.reaction
-    )
-    if waits:
+    leaves = now if progress.controller else _stands_until(meant.trajectory, now)
+    if leaves > now + task.reaction:
         stop = braking(progress.distance, 0.0, brake, now)
         return replace(meant, trajectory=stop, gives_way=True, waits_for_gap=True)
     strict = Foresight(top_speed=things.max_speed_mps, accel=ANY_ACCEL_MPS2)
@@ -138,12 +136,12 @@ def stoppable(
         sight.reach, sight.mouths, knowledge.charted_moving,
     )  # fmt: skip
     keep = task.requirements.outer_radius + task.requirements.tracking_error
-    upper = _in_even_pieces(meant.trajectory, now, brake)
+    upper = _in_even_pieces(meant.trajectory, leaves, brake)
     hold = STAY_S if meant.is_round else task.mission.route.hold_s
     stay = stay_meant(meant.trajectory, meant.path, progress.distance, hold)
     proven = before.trajectory if before.is_proven and meant.path is before.path else None
     limits = (task.limits.max_accel, brake)
-    asked = StopAsked(meant.path, upper, premises, keep, limits, now, stay, proven)
+    asked = StopAsked(meant.path, upper, premises, keep, limits, leaves, stay, proven)
     law = certified_stop(asked)
     if law is None:
         law = stop_of(before.trajectory, now, brake)
@@ -198,10 +196,13 @@ def kept_to_path(
     return replace(schedule, pending=pending), event
 
 
-def _stands_until(law: Trajectory, now: float, later: float) -> bool:
-    """Whether a robot is to stand from now until a later time [s], and to go on then."""
-    (here, there), (speed, then), _ = law.state_at(np.array((now, later)))
-    return bool(speed == then == 0.0 and here == there and here < law.distances[-1])
+def _stands_until(law: Trajectory, now: float) -> float:
+    """Up to when a robot is to stand that goes on then [s]; now if it moves, or is to stay."""
+    here, speed, _ = (float(value) for value in law.state_at(now))
+    if speed > 0.0 or here >= law.distances[-1]:
+        return now
+    last = int(np.searchsorted(law.distances, here, side="right")) - 1
+    return max(float(law.times[last]), now)
 
 
 def _in_even_pieces(law: Trajectory, now: float, brake: float) -> Trajectory:
