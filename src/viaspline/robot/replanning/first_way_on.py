@@ -98,7 +98,9 @@ def first_candidate(
             )
             candidate = timed(context, mode, solution)
             if candidate is None and stage == LAST_STAGE:
-                candidate = awaited(context, solution)
+                candidate = _awaited(context, solution)
+        except UnfinishedSearchError:
+            raise
         except SpentBudgetError as error:
             raise UnfinishedSearchError(error, _next(stage, before, context)) from error
         except BlockedLegError:
@@ -121,6 +123,25 @@ def first_candidate(
         if candidate is not None and not _turns_back(context, solution) and worth(candidate):
             return candidate
     raise AssertionError("the last stage of a search finds something or says why there is nothing")
+
+
+def _awaited(context: ReplanContext, solution: Solution) -> PathCandidate | None:
+    """A path from rest that the robot goes over to and waits, if it stands.
+
+    Raises:
+        UnfinishedSearchError: If it is under way: it goes on and looks again, for what moves may
+            leave it a law before it has to stop.
+    """
+    candidate = awaited(context, solution)
+    if candidate is None or context.speed == 0.0:
+        return candidate
+    spent = SpentBudgetError(
+        "no time law was found on the way round past what moves",
+        where=context.here,
+        remedy="it looks again before it has to stop",
+        tried=("waiting, slowing down and passing before",),
+    )
+    raise UnfinishedSearchError(spent, NO_STAGE)
 
 
 def _stages(context: ReplanContext, modes: tuple[Mode, ...]) -> Iterator[tuple[Stage, Mode, float]]:
