@@ -9,7 +9,10 @@ import pytest
 
 import viaspline as vs
 from viaspline.robot.yielding import certified_stop, stoppable
+from viaspline.tracks.patience import FROZEN
 from viaspline.trajectory.passive_safety import passive_law
+from viaspline.trajectory.retime import braking
+from viaspline.trajectory.trajectory import Trajectory
 
 TOP_MPS = 1.5
 
@@ -124,3 +127,30 @@ def test_one_that_sees_little_creeps_on_and_is_not_frozen() -> None:
     run = vs.simulate(vs.Mission.model_validate(data), step=0.1)
     assert run.reached
     assert run.speeds.max() * TOP_MPS < 0.3  # at rest before what comes from 0.3 m beyond its body
+
+
+@pytest.mark.parametrize("proven_m", [1e-4, 1.2e-3])
+def test_who_gets_on_by_hairs_stands_and_gives_up(
+    monkeypatch: pytest.MonkeyPatch, proven_m: float
+) -> None:
+    """It crept on for ever: every hair of a step began its patience anew."""
+    count = 0
+
+    def hairs(asked: certified_stop.StopAsked) -> Trajectory:
+        nonlocal count
+        count += 1
+        here, speed, _ = (float(value) for value in asked.upper.state_at(asked.now))
+        if speed > 0.0 or count % 300:
+            return braking(here, speed, asked.limits[1], asked.now)
+        places = here + np.array([0.0, 0.5, 1.0]) * proven_m
+        squares = np.array([0.0, proven_m, 0.0])
+        return Trajectory.through(places, squares, max_accel=1.0, start_time=asked.now)
+
+    monkeypatch.setattr(stoppable, "certified_stop", hairs)
+    data = among(0, "passive").model_dump(by_alias=True, exclude_defaults=True)
+    data["world"] = {}
+    run = vs.simulate(vs.Mission.model_validate(data))
+    assert run.reason is not None
+    assert run.reason.startswith(FROZEN)
+    assert run.path.length < 0.02
+    assert run.duration < 61.0

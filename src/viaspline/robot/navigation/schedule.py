@@ -95,7 +95,8 @@ class Schedule:
         gives_way: Whether the trajectory is slower than it could be, for what moves.
         next_way: Which of the ways past what moves is tried next; 0: all were, or none.
         frozen_since: Since when it stands and no step of it is proven to be safe from what may
-            come [s]; inf if it doesn't.
+            come, or meant none [s]; inf if it doesn't.
+        frozen_at: How far it had driven then [m]; inf if it doesn't.
         waits_for_gap: Whether it stands until what crosses is gone, by a law that goes on then.
         held_up: Set while it stands and knows no way on past what moves.
         proven: The last law from all of which it was proven to stand before anything touches it.
@@ -122,6 +123,7 @@ class Schedule:
     gives_way: bool = False
     next_way: int = 0
     frozen_since: float = math.inf
+    frozen_at: float = math.inf
     waits_for_gap: bool = False
     held_up: HeldUp | None = None
     proven: Trajectory | None = None

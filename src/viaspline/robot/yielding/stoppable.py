@@ -36,7 +36,7 @@ from viaspline.robot.yielding.held_up import rests
 from viaspline.tracks.foresight import Foresight
 from viaspline.tracks.patience import FROZEN, MAX_FROZEN_S, UNSEEING
 from viaspline.trajectory.passive_premises import SAME_PLACE_M, PassivePremises
-from viaspline.trajectory.passive_safety import stop_of
+from viaspline.trajectory.passive_safety import FIRST_STEPS_M, stop_of
 from viaspline.trajectory.retime import braking
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -44,6 +44,13 @@ from viaspline.world.world import World
 
 NARROWEST_M = 0.2
 """Nothing that moves comes through a gap that is narrower [m]."""
+
+LEAST_STEP_M = FIRST_STEPS_M[0]
+"""One that stands doesn't set off for less: by steps of a hair it would neither come on nor have
+stood for long [m]."""
+
+FREED_M = 0.01
+"""Who has come so much farther has got free [m]."""
 
 PIECE_S = 0.02
 """A law with a limit of the jerk is taken in pieces of even acceleration, so long [s]."""
@@ -116,7 +123,7 @@ def stoppable(
     if things is None or things.safety == "none" or not has_law:
         return after
     if progress.dwell is not None:
-        return _staying(task, progress, after)
+        return _staying(task, progress, _freed(after))
     if rests(knowledge, after, progress.time) and after.path is before.path:
         return after
     now, brake = progress.time, task.limits.brake
@@ -129,7 +136,7 @@ def stoppable(
     leaves = now if progress.controller else _stands_until(meant.trajectory, now)
     if leaves > now + task.reaction:
         stop = braking(progress.distance, 0.0, brake, now)
-        return replace(meant, trajectory=stop, gives_way=True, waits_for_gap=True)
+        return replace(_freed(meant), trajectory=stop, gives_way=True, waits_for_gap=True)
     strict = Foresight(top_speed=things.max_speed_mps, accel=ANY_ACCEL_MPS2)
     premises = PassivePremises(
         _tubes(knowledge, sight.time, strict), sight.time, things.max_speed_mps, sight.eye,
@@ -149,10 +156,11 @@ def stoppable(
         meant = meant if meant.path is before.path else before
     if task.limits.max_jerk is not None and law is not proven:
         law = replace(law, over_jerk_until=float(law.distances[-1]))
-    here = progress.distance + SAME_PLACE_M
-    is_frozen = speed == 0.0 and law.distances[-1] <= here < upper.distances[-1]
-    since = min(meant.frozen_since, now) if is_frozen else math.inf
-    return _patient(robot, replace(meant, trajectory=law, proven=law, frozen_since=since), now)
+    here = progress.distance
+    is_frozen = speed == 0.0 and law.distances[-1] < min(here + LEAST_STEP_M, upper.distances[-1])
+    if is_frozen and law.distances[-1] > here:
+        law = braking(here, 0.0, brake, now)
+    return _patient(robot, replace(meant, trajectory=law, proven=law), here, now, is_frozen)
 
 
 def _staying(task: DriveTask, progress: Progress, schedule: Schedule) -> Schedule:
@@ -164,9 +172,32 @@ def _staying(task: DriveTask, progress: Progress, schedule: Schedule) -> Schedul
     return replace(schedule, trajectory=braking(progress.distance, 0.0, task.limits.brake, now))
 
 
-def _patient(robot: RobotSpec, schedule: Schedule, now: float) -> Schedule:
-    """The schedule of a robot that doesn't stand for ever where nothing is proven to be safe."""
-    if now - schedule.frozen_since < MAX_FROZEN_S:
+def _freed(schedule: Schedule) -> Schedule:
+    """The schedule of a robot that stands because it means to."""
+    return replace(schedule, frozen_since=math.inf, frozen_at=math.inf)
+
+
+def _patient(
+    robot: RobotSpec, schedule: Schedule, here: float, now: float, is_frozen: bool
+) -> Schedule:
+    """The schedule of a robot that doesn't stand for ever where nothing is proven to be safe.
+
+    It has stood since it was last on its way: not only while it would go if nothing could come.
+
+    Args:
+        robot: The robot.
+        schedule: What it means to do now.
+        here: Where it is along its path [m].
+        now: [s].
+        is_frozen: Whether no step of it is proven now.
+    """
+    since, at = schedule.frozen_since, schedule.frozen_at
+    if schedule.driven + here > at + FREED_M:
+        since, at = math.inf, math.inf
+    if is_frozen and since == math.inf:
+        since, at = now, schedule.driven + here
+    schedule = replace(schedule, frozen_since=since, frozen_at=at)
+    if not is_frozen or now - since < MAX_FROZEN_S:
         return schedule
     reason = FROZEN if robot.sensor is not None else FROZEN + UNSEEING
     return replace(schedule, giving_up=reason, pending=None)
