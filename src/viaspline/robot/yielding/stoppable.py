@@ -157,7 +157,9 @@ def stoppable(
     if task.limits.max_jerk is not None and law is not proven:
         law = replace(law, over_jerk_until=float(law.distances[-1]))
     here = progress.distance
-    is_frozen = speed == 0.0 and law.distances[-1] < min(here + LEAST_STEP_M, upper.distances[-1])
+    # corners may be nearer to each other than a step
+    step = min(here + LEAST_STEP_M, upper.next_rest(here + SAME_PLACE_M) - SAME_PLACE_M)
+    is_frozen = speed == 0.0 and law.distances[-1] < step
     if is_frozen and law.distances[-1] > here:
         law = braking(here, 0.0, brake, now)
     return _patient(robot, replace(meant, trajectory=law, proven=law), here, now, is_frozen)
