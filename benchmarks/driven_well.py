@@ -13,7 +13,8 @@
     signs            random missions, vector worlds, crops, rooms: how many turn the other way more
                      than twice as often as the taut route and twice for each via point; 20 each
     lanes            share of lanes over a lake that the path stays within 1 m of, and of how many
-                     it is less than 1 - 4 x (island's width / lane); 20
+                     it is less than 1 - 4 x (islands' width / lane), of them of how many that are
+                     more than ten times as long, which are kept unless it is said; 20
     times            of a plan: vector worlds, crops of the maps in FOLDER; 20
 
 With --detours local or short, lakes and vector worlds say how, else it is chosen: the best curve of
@@ -181,7 +182,8 @@ def signs(asked: argparse.Namespace) -> None:
 def lanes(asked: argparse.Namespace) -> None:
     print("lake  lanes  share kept  worst lane  taut routes'  time s")
     kept: list[float] = []
-    times_s, beside, count = 0.0, 0, 0
+    found: list[tuple[bool, bool]] = []
+    times_s = 0.0
     for seed in seeds(asked, 20):
         mission = with_detours(lake(seed), asked)
         driven = DrivenPlan.of(mission)
@@ -189,26 +191,39 @@ def lanes(asked: argparse.Namespace) -> None:
         taut = [near_lane(leg)[0] for leg in driven.taut_legs]
         kept.append(float(np.average(shares, weights=weights)))
         times_s += driven.driving_time
-        for leg, island, share in zip(driven.legs, mission.world.known, shares, strict=True):
-            beside += share < 1.0 - 4.0 * width(island, leg) / length(leg[[0, -1]])
-            count += 1
+        for leg, share in zip(driven.legs, shares, strict=True):
+            part = width(mission, leg) / length(leg[[0, -1]])
+            found.append((share < 1.0 - 4.0 * part, part < 0.1))
         print(
             f"{seed:4d} {len(shares):6d} {kept[-1]:11.3f} {min(shares):11.3f} "
             f"{np.average(taut, weights=weights):13.3f} {driven.driving_time:7.1f}",
             flush=True,
         )
     print(f"median {np.median(kept):.3f}, least {min(kept):.3f}; driven in {times_s:.0f} s")
-    print(f"{beside} of {count} lanes keep less than 1 - 4 x (island's width / lane)")
+    less, long = np.array(found).T
+    print(f"{less.sum()} of {len(less)} lanes keep less than 1 - 4 x (islands' width / lane),")
+    print(
+        f"{less[long].sum()} of {long.sum()} that are more than ten times as long as that is wide"
+    )
 
 
-def width(island: vs.Obstacle, leg: np.ndarray) -> float:
-    """Of an island, along the line between a leg's ends or across it, whichever is more [m]."""
-    if island.circle is not None:
-        return 2.0 * island.circle.radius
-    along = (leg[-1] - leg[0]) / length(leg[[0, -1]])
+def width(mission: vs.Mission, leg: np.ndarray) -> float:
+    """Of the islands that block the line between a leg's ends [m].
+
+    Along the line or across it, whichever is more of each.
+    """
+    ends = leg[[0, -1]]
+    along = (ends[1] - ends[0]) / length(ends)
     across = np.array((-along[1], along[0]))
-    ring = np.array(island.polygon)
-    return float(max(np.ptp(ring @ along), np.ptp(ring @ across)))
+    required = mission.robot.radius_m + mission.robot.clearance_m
+    total = 0.0
+    for island in mission.world.known:
+        ring = np.array(island.polygon or [island.circle.center])
+        radius = island.circle.radius if island.circle is not None else 0.0
+        core = shapely.MultiPoint(ring).convex_hull
+        if shapely.distance(core, shapely.LineString(ends)) < radius + required:
+            total += float(max(np.ptp(ring @ along), np.ptp(ring @ across))) + 2.0 * radius
+    return total
 
 
 def near_lane(leg: np.ndarray) -> tuple[float, float]:

@@ -121,6 +121,33 @@ def test_a_turning_circle_and_a_long_body_keep_their_lanes_within_their_limits(s
     assert share >= 1.0 - (3.0 * width + 8.0 * circle) / length
 
 
+@pytest.mark.slow
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10_000))
+def test_by_itself_it_is_so_of_a_lane_ten_times_as_long_as_its_island_is_wide(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    places = lanes(rng, 1)
+    shape, width = island(rng, *places)
+    reach = ROBOT["radius_m"] + ROBOT["clearance_m"]
+    assume(math.dist(*places) > 10.0 * max(width, 0.5 * width + reach))
+    ((share, length),) = shares(vs.plan(mission(places, [shape])).path)
+    assert share >= 1.0 - 4.0 * width / length
+
+
+def test_round_the_tip_of_something_large_a_path_swerves_as_gently_as_full_speed_needs() -> None:
+    wedge = [{"polygon": [[195, -60], [260, -60], [200, 2]]}]
+    plan = vs.plan(mission(((0, 0), (400, 0)), wedge, detours="local"))
+    curvature = plan.path.curvature(np.linspace(*plan.path.domain, 20_000))
+    assert np.abs(curvature).max() * 3.0**2 < 1.05 * 0.5
+    assert shares(plan.path)[0][0] > 0.8
+
+
+def test_on_a_short_lane_turns_are_no_wider_than_there_is_room_for_before_its_ends() -> None:
+    disc = [{"circle": {"center": [50, 1], "radius": 10}}]
+    ((share, length),) = shares(vs.plan(mission(((0, 0), (100, 0)), disc, detours="local")).path)
+    assert share >= 1.0 - 4.0 * 20.0 / length
+
+
 def test_two_islands_far_apart_leave_the_lane_between_them() -> None:
     discs = [{"circle": {"center": [x, 0.5], "radius": 4}} for x in (100, 300)]
     plan = vs.plan(mission(((0, 0), (400, 0)), discs, detours="local"))

@@ -17,6 +17,7 @@ from viaspline.planning.turning.driven_price import DrivenPrice
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.gentle_strip import gentle_strip
 from viaspline.planning.turning.laid_turns import through_spans
+from viaspline.planning.turning.lane_turns import BESIDE_LANE
 from viaspline.planning.turning.strip_body import strip_body
 from viaspline.planning.turning.tension_search import GENTLE_SHARE, RunPrice
 
@@ -24,7 +25,6 @@ LEAST_RUN = 4.0  # of a run that has room to bend less, in required distances
 STRAIGHT = 1e-9  # bending times length, of what need not bend less
 TIME_KNOWN = 1e-3  # of a driven time: it is known so well
 SHARPER = 1e-3  # by which a path is no sharper yet: as well as that is known
-BESIDE_LANE = 0.5  # it, at most, a straight span lies on it, in required distances
 STRAIGHT_SPAN = 1e-7  # by which a straight one's controls are off, in required distances
 
 

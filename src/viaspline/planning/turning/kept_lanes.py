@@ -15,10 +15,11 @@ from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import LegBends, RowBends, bends_of_legs
 from viaspline.planning.turning.lane import Lane
 from viaspline.planning.turning.lane_stays import LegLane
-from viaspline.planning.turning.local_detours import LANE_REACHES, LaneTurns, local_bends
+from viaspline.planning.turning.lane_turns import LaneTurns
+from viaspline.planning.turning.local_detours import LANE_REACHES, local_bends
 from viaspline.planning.turning.turning_problem import TurningProblem
 
-DEAR_LANE = 1.05  # driven time of a leg on its line over the shortest way's; nobody asked for that
+DEAR_LANE = 1.1  # driven time of a leg on its line over the shortest way's; nobody asked for that
 
 
 @dataclass(frozen=True)
@@ -129,8 +130,9 @@ class KeptLanes:
         return times[0] > DEAR_LANE * times[1] > 0.0
 
     def _lane_turns(self, reach: float) -> LaneTurns:
-        widest = max(self.problem.requirements.objective.pace.widest_radius, self.problem.roomy)
-        return LaneTurns(self.problem.sharpest, max(widest, self.problem.sharpest), reach)
+        needs, sharpest = self.problem.requirements, self.problem.sharpest
+        widest = max(needs.objective.pace.widest_radius, self.problem.roomy, sharpest)
+        return LaneTurns(sharpest, widest, needs.required, reach)
 
     @cached_property
     def _leg_lanes(self) -> tuple[LegLane, ...]:

@@ -33,7 +33,7 @@ class Stay:
         begin: Where it begins, along the lane [m].
         end: Where it ends [m].
         aside: How far beside the lane the path gets there [m].
-        size: Of the largest thing that stands in the way there [m].
+        size: Of the largest thing that stands in the way there, and what is kept from it [m].
         barriers: What closes the sides on which the path doesn't pass what stands there, (b, 4).
     """
 
@@ -117,18 +117,28 @@ def _blocked(leg: LegSearch, lane: Lane, taut_path: TautPath, places: Floats, ru
     within = places[(places[:, 0] > begin) & (places[:, 0] < end), 1]
     at_ends = np.interp([begin, end], places[:, 0], places[:, 1])
     aside = float(np.abs(np.append(within, at_ends)).max())
-    barriers = _barriers(leg.world, lane, lane.at(0.5 * (begin + end)))
+    middle = lane.at(0.5 * (begin + end))
+    index = int(leg.world.nearest(middle)[1])
+    barriers = _barriers(leg.world, lane, middle, index)
     passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
     closed = barriers.right if passed is barriers.left else barriers.left
-    return Stay(begin, end, aside, max(end - begin, 2.0 * aside), closed)
+    size = _width(leg.world, lane, index) + 2.0 * leg.requirements.required
+    return Stay(begin, end, aside, max(size, end - begin, aside), closed)
 
 
-def _barriers(world: World, lane: Lane, place: Floats) -> Barriers:
-    """What closes either side of what blocks a lane at a place [m], (2,).
+def _width(world: World, lane: Lane, index: int) -> float:
+    """Of an obstacle, along a lane or across it, whichever is more; 0 of one of many parts [m]."""
+    ring = world.obstacles[index].ring if index >= 0 else None
+    if ring is None:
+        return 0.0
+    return float(np.ptp(lane.seen(ring.vertices), axis=0).max()) + 2.0 * ring.radius
+
+
+def _barriers(world: World, lane: Lane, place: Floats, index: int) -> Barriers:
+    """What closes either side of an obstacle that blocks a lane at a place [m], (2,).
 
     They begin inside of it: a path may pass between it and a lane that it blocks only just.
     """
-    index = int(world.nearest(place)[1])
     ends = lane.start, lane.at(lane.length)
     if index >= 0 and world.obstacles[index].ring is not None:
         return barriers_of(world, index, *ends)

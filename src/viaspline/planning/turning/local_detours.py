@@ -1,11 +1,9 @@
-r"""Detours that leave the line between two via points late and are back on it early.
+"""Detours that leave the line between two via points late and are back on it early.
 
 Where the line is blocked, the path leaves it and meets it again along circles that touch the line,
-beside what it goes round. A path that goes aside by w with turns and counter-turns of the radius R,
-whose curvature rises evenly, takes :math:`\sqrt{8 R w}` along the line. So near to what it goes
-round it leaves; with R so small that this is in proportion to what it goes round, and no larger
-than what the robot needs at full speed. Places on the line that are too near to each other to go
-back to it between them are gone round as one, and one too near to a via point from that point on.
+beside what it goes round (``lane_turns`` says how near and how wide). Places on the line that are
+too near to each other to go back to it between them are gone round as one, and one too near to a
+via point from that point on.
 """
 
 from __future__ import annotations
@@ -26,37 +24,13 @@ from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import KEPT, SIDE, LegBends, X, Y, bend, rows_along
 from viaspline.planning.turning.lane import Lane
 from viaspline.planning.turning.lane_stays import OFF_LANE, LegLane, Stay
+from viaspline.planning.turning.lane_turns import LaneTurns, turn_aside
 from viaspline.planning.turning.wide_turns import swing_share
 
 LANE_REACHES = (1.0, 1.6)  # how long turns off and onto a lane are made, over what they need
-LONGEST_S = 1.25  # of such a turn with its counter-turn, over what is gone round
 END_SWING = 0.35  # of a turn at an end of a lane, in required distances
 NEXT_TO = 1.001  # from an end of a leg, at which there is room just so for a turn, in radii
 CLEAR_OF_RUN = 0.25  # before a blocked place, at which the line is left at the latest; the same
-
-
-@dataclass(frozen=True)
-class LaneTurns:
-    """Turns off a lane and onto it.
-
-    Attributes:
-        least: The least radius of a turn [m].
-        widest: That of one at full speed [m].
-        reach: How far along the lane they are stretched, over what they need.
-    """
-
-    least: float
-    widest: float
-    reach: float
-
-    def radius(self, aside: float, size: float) -> float:
-        """With which a path goes aside [m] round something of a size [m]."""
-        fitting = (LONGEST_S * size) ** 2 / (8.0 * max(aside, 1e-9 * size))
-        return float(np.clip(fitting, self.least, self.widest))
-
-    def length(self, aside: float, radius: float) -> float:
-        """Along the lane, of a turn and a counter-turn that lead so far aside [m]."""
-        return self.reach * math.sqrt(8.0 * radius * min(aside, 2.0 * radius))
 
 
 @dataclass(frozen=True)
@@ -99,12 +73,6 @@ class Aside:
             rows.append(_touching(lane, self.meet, float(self.off[-1]), self.radius))
             swings.append(0.0)
         return np.array(rows).reshape(-1, 6), np.array(swings)
-
-
-def turn_aside(aside: Floats, radius: float) -> Floats:
-    """By how much a path turns with a radius, and back again, to get so far aside [rad], (n,)."""
-    turn: Floats = np.minimum(np.sqrt(aside / (2.0 * radius)), 0.5 * math.pi)
-    return turn
 
 
 def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> LegBends | None:
@@ -155,8 +123,11 @@ def _aside(leg: LegSearch, lane: Lane, stay: Stay, turns: LaneTurns) -> Aside | 
     Returns:
         None where no way was found, or nothing of the lane is left before and after it.
     """
-    radius = turns.radius(stay.aside, stay.size) if stay.size > 0.0 else turns.widest
     first, last = (float(lane.seen(end)[0]) for end in leg.ends)
+    middle = 0.5 * (stay.begin + stay.end)
+    radius, room = turns.widest, min(middle - first, last - middle)
+    if stay.size > 0.0:
+        radius = turns.radius(stay.aside, stay.size, 0.0, room)
     clear = CLEAR_OF_RUN * leg.requirements.required
     along = turns.length(stay.aside, radius)
     leave = max(stay.begin - along, min(stay.begin - clear, first + NEXT_TO * radius))
@@ -170,6 +141,10 @@ def _aside(leg: LegSearch, lane: Lane, stay: Stay, turns: LaneTurns) -> Aside | 
         found = None if span == (None, None) else _routed(leg, lane, span, stay.barriers, radius)
         if found is None or not len(found.places):
             break
+        if stay.size > 0.0:
+            at, most = found.places[:, 0], float(np.abs(found.off).max())
+            room = float(min(at.min() - first, last - at.max()))
+            radius = turns.radius(most, stay.size, float(np.ptp(at)), room)
         needed = np.array([turns.length(off, radius) for off in np.abs(found.off)])
         before, after = found.off * found.off[0] > 0.0, found.off * found.off[-1] > 0.0
         leave = min(float((found.places[:, 0] - needed)[before].min()), stay.begin - clear)
@@ -180,6 +155,7 @@ def _aside(leg: LegSearch, lane: Lane, stay: Stay, turns: LaneTurns) -> Aside | 
         found,
         leave=None if found.leave is None else leave,
         meet=None if found.meet is None else meet,
+        radius=radius,
     )
 
 
