@@ -6,7 +6,7 @@ Tested through ``planning/turning/test_local_detours``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,8 +33,9 @@ class Stay:
         begin: Where it begins, along the lane [m].
         end: Where it ends [m].
         aside: How far beside the lane the path gets there [m].
-        size: Of the largest thing that stands in the way there, and what is kept from it [m].
-        barriers: What closes the sides on which the path doesn't pass what stands there, (b, 4).
+        size: Of what stands in the way there, with what is kept from it [m]: at least.
+        barriers: What closes the sides on which the path doesn't pass what stands there, (b, 4);
+            none before that is looked for.
     """
 
     begin: float
@@ -100,30 +101,33 @@ class LegLane:
         first, last = self.ends
         runs = np.clip(self.runs, first, max(first, last))
         places = self.lane.seen(taut_path.corners[:, [CORNER_X, CORNER_Y]])
-        stays = [
-            _blocked(self.leg, self.lane, taut_path, places, run)
-            for run in runs[runs[:, 1] > runs[:, 0]]
-        ]
+        stays = [_blocked(places, run) for run in runs[runs[:, 1] > runs[:, 0]]]
         for end, at in zip(self.leg.ends, (first, last), strict=True):
             if self.is_off(end):
                 off = abs(float(self.lane.seen(end)[1]))
                 stays.append(Stay(at, at, off, 0.0, NO_BARRIERS))
         return sorted(stays, key=lambda stay: stay.begin)
 
+    def closed(self, stay: Stay, taut_path: TautPath) -> Stay:
+        """A blocked piece with all of what stands there, and what closes its other side."""
+        if not stay.size > 0.0:
+            return stay
+        world, middle = self.leg.world, self.lane.at(0.5 * (stay.begin + stay.end))
+        index = int(world.nearest(middle)[1])
+        barriers = _barriers(world, self.lane, middle, index)
+        passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
+        closed = barriers.right if passed is barriers.left else barriers.left
+        size = _width(world, self.lane, index) + 2.0 * self.leg.requirements.required
+        return replace(stay, size=max(size, stay.size), barriers=closed)
 
-def _blocked(leg: LegSearch, lane: Lane, taut_path: TautPath, places: Floats, run: Floats) -> Stay:
+
+def _blocked(places: Floats, run: Floats) -> Stay:
     """A blocked piece of a lane, as a taut path with corners at places (k, 2) [m] passes it."""
     begin, end = run.tolist()
     within = places[(places[:, 0] > begin) & (places[:, 0] < end), 1]
     at_ends = np.interp([begin, end], places[:, 0], places[:, 1])
     aside = float(np.abs(np.append(within, at_ends)).max())
-    middle = lane.at(0.5 * (begin + end))
-    index = int(leg.world.nearest(middle)[1])
-    barriers = _barriers(leg.world, lane, middle, index)
-    passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
-    closed = barriers.right if passed is barriers.left else barriers.left
-    size = _width(leg.world, lane, index) + 2.0 * leg.requirements.required
-    return Stay(begin, end, aside, max(size, end - begin, aside), closed)
+    return Stay(begin, end, aside, max(end - begin, aside), NO_BARRIERS)
 
 
 def _width(world: World, lane: Lane, index: int) -> float:

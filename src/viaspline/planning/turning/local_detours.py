@@ -97,7 +97,8 @@ def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> Leg
     room = leg.world.distance(np.array(on_lane).reshape(-1, 2))
     if room.min(initial=math.inf) < (1.0 + CLEAR_OF_RUN) * needs.required and stays:
         return None  # it begins or ends beside what it has to go round: no lane is left there
-    pieces: list[tuple[Stay, Aside | None]] = [(stay, None) for stay in stays]
+    pieces: list[tuple[Stay, Aside | None]]
+    pieces = [(leg_lane.closed(stay, taut_path), None) for stay in stays]
     while any(aside is None for _, aside in pieces):
         found: list[tuple[Stay, Aside]] = []
         for stay, known in pieces:
