@@ -51,7 +51,7 @@ def test_a_sensor_that_flickers_makes_no_oscillation(
 def test_a_side_that_a_step_has_no_time_to_compare_is_asked_about_first_in_the_next(
     drive: Drive, mission_of: Make, disc_at: Shape
 ) -> None:
-    mission = mission_of([0, 0], [20, 0], unseen=[disc_at(10, -0.02, 1.5)], **ROBOT)
+    mission = mission_of([0, 0], [20, 0], unseen=[disc_at(10, -0.02, 2.5)], **ROBOT)
     route = mission.route.model_copy(update={"detours": "local"})  # which is the longer search
     mission = mission.model_copy(update={"route": route})
     post = mission.world.unseen
@@ -61,7 +61,7 @@ def test_a_side_that_a_step_has_no_time_to_compare_is_asked_about_first_in_the_n
     assert doubts
     assert all(one.is_open and one.side == "right" for one in doubts)  # it meant that one
     x, y = np.array([one.place for one in doubts]).T
-    assert np.hypot(x - 10.0, y).max() < 1.6  # which is on the post
+    assert np.hypot(x - 10.0, y).max() < 2.6  # which is on the post
 
 
 def test_a_thing_that_is_told_again_and_again_a_little_elsewhere_makes_no_oscillation(
