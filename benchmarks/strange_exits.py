@@ -82,7 +82,8 @@ def exit_faults(plan: Any, free: Callable[..., np.ndarray] | None, folder: Path)
             yield "chord", f"{ending}: {there.max():.5f} m, {exported.proof.chord_error:.5f} told"
         dense = sampled(lines)
         back = nearest(dense, curve[:, :axes])
-        if back.max() > exported.proof.chord_error + off + 0.01:
+        apart = max(0.01, 0.5 * longest / u.size)  # of the samples of the curve, half
+        if back.max() > exported.proof.chord_error + off + apart:
             yield "chord back", f"{ending}: {back.max():.5f}, {exported.proof.chord_error:.5f} told"
         for via in plan.path.vias:
             if via.kind == "user":
