@@ -16,7 +16,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.trajectory.limits import Limits, Station
-from viaspline.trajectory.moving_certificate import certify_moving, first_moving_conflict
+from viaspline.trajectory.moving_certificate import certify_moving
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -184,30 +184,6 @@ def test_the_bound_is_proven_and_within_a_millimetre(seed: int) -> None:
     np.testing.assert_allclose(law.distance_at(when[0]), found.tightest_distance, atol=1e-6)
 
 
-@pytest.mark.slow
-@given(seeds)
-def test_the_first_conflict_is_the_first_one(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    path, law, hold = random_drive(rng)
-    motions = [random_motion(rng, law.duration) for _ in range(rng.integers(1, 6))]
-    obstacles = [Obstacle(**random_shape(rng), motion=motion) for motion in motions]
-    required = float(rng.uniform(0.1, 1))
-    moving = MovingObstacles(obstacles)
-    found = first_moving_conflict(path, law, moving, required, hold=hold)
-    times, places = drive(path, law, hold)
-    sampled = [distances(*pair, places, times) for pair in zip(obstacles, motions, strict=True)]
-    close = np.min(sampled, axis=0) < required - PROOF_SLACK_M
-    assert (found is None) == certify_moving(path, law, moving, required, hold=hold).holds
-    if found is None:
-        assert not close.any()
-        return
-    when, index = found
-    assert not close[times < when].any()
-    soon = when + np.linspace(-1e-6, 1e-3, 100)
-    there = path.at_distance(np.minimum(law.distance_at(soon), path.length))[:, :2]
-    assert distances(obstacles[index], motions[index], there, soon).min() < required + 1e-6
-
-
 # A polygonal body
 
 
@@ -350,7 +326,6 @@ def test_nothing_is_near_where_nothing_is() -> None:
         assert found.clearance == math.inf
         assert found.obstacle is None
         assert found.holds
-        assert first_moving_conflict(path, law, moving, 1.0) is None
 
 
 def test_a_long_body_turns_on_the_spot_at_a_corner() -> None:

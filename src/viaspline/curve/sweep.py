@@ -1,4 +1,4 @@
-"""Where a body has been along a curve, for pictures: outlines and the swept area."""
+"""Where a body has been along a curve, for pictures: outlines and what it sweeps over."""
 
 from __future__ import annotations
 
@@ -43,18 +43,18 @@ def footprints_along(curve: PiecewiseCubic, footprint: ArrayLike, spacing: float
     return placed(outline(footprint), points[:, :2], np.asarray(curve.heading(u)))
 
 
-def swept_area(
+def swept_parts(
     curve: PiecewiseCubic,
     footprint: ArrayLike | None = None,
     tolerance: float = 0.02,
     *,
     radius: float = 0.0,
-) -> Any:
+) -> NDArray[np.object_]:
     """What a body covers along a curve, turns on the spot among it: a little too much, never less.
 
-    The body, or its edges if it is not convex, are joined from pose to pose; poses stand so close
-    that what lies beyond the hull of two neighbours is less than half the tolerance, by which the
-    hulls are grown.
+    Polygons that together are all of it; their union takes far longer than they do. The body, or
+    its edges if it is not convex, are joined from pose to pose; poses stand so close that what lies
+    beyond the hull of two neighbours is less than half the tolerance, by which the hulls are grown.
 
     Args:
         curve: A curve of two dimensions or more; its ground track counts.
@@ -63,7 +63,7 @@ def swept_area(
         radius: A disc that the body is grown by, or the body itself [m].
 
     Returns:
-        A shapely polygon or multipolygon, with holes where the body goes round something.
+        Shapely polygons, shape (n,).
 
     Raises:
         GeometryError: When tolerance or radius make no sense, or so small a tolerance takes more
@@ -71,35 +71,9 @@ def swept_area(
 
     Example:
         >>> curve = PiecewiseCubic([[(0, 0), (1, 0), (2, 0), (3, 0)]])
-        >>> area = swept_area(curve, [(-1, -1), (1, -1), (1, 1), (-1, 1)], 0.01)
-        >>> 10.0 <= area.area < 10.2
+        >>> parts = swept_parts(curve, [(-1, -1), (1, -1), (1, 1), (-1, 1)], 0.01)
+        >>> bool(10.0 <= shapely.union_all(parts).area < 10.2)
         True
-    """
-    return shapely.union_all(swept_parts(curve, footprint, tolerance, radius=radius))
-
-
-def swept_parts(
-    curve: PiecewiseCubic,
-    footprint: ArrayLike | None = None,
-    tolerance: float = 0.02,
-    *,
-    radius: float = 0.0,
-) -> NDArray[np.object_]:
-    """What a body covers from pose to pose along a curve: polygons that together are all of it.
-
-    Their union takes far longer than they do; who only fills them with a colour does without.
-
-    Args:
-        curve: As for ``swept_area``,
-        footprint: likewise,
-        tolerance: likewise [m],
-        radius: and likewise [m].
-
-    Returns:
-        Shapely polygons, shape (n,).
-
-    Raises:
-        GeometryError: As ``swept_area`` does.
     """
     if not (tolerance > 0.0 and math.isfinite(tolerance)) or not radius >= 0.0:
         raise GeometryError(f"tolerance {tolerance} has to be above 0, radius {radius} 0 or more")

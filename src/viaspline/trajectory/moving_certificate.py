@@ -14,7 +14,7 @@ from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind, number_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.motion import timed_path as columns
-from viaspline.kernels.motion.moving_clearance import first_conflict, moving_tightest
+from viaspline.kernels.motion.moving_clearance import moving_tightest
 from viaspline.kernels.motion.timed_path import LAW_COLUMNS, TimedPath
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -135,51 +135,6 @@ def certify_moving(
         obstacle=None if index < 0 else moving.name(index),
         heading=None if math.isnan(facing) else facing,
     )
-
-
-def first_moving_conflict(
-    path: PiecewiseCubic,
-    trajectory: Trajectory,
-    moving: MovingObstacles,
-    clearance: float,
-    *,
-    radius: float = 0.0,
-    footprint: ArrayLike | None = None,
-    heading: float | None = None,
-    hold: float = 0.0,
-) -> tuple[float, int] | None:
-    """When a drive first comes too close to something that moves, and to which of them.
-
-    The arguments are those of ``certify_moving``.
-
-    Returns:
-        (instant [s], index), or None where it is proven that it never does. The instant is the
-        first from which on that can't be proven for a tenth of a millisecond.
-
-    Raises:
-        GeometryError: See ``certify_moving``.
-
-    Example:
-        >>> from viaspline.curve.cardinal import CardinalSpline
-        >>> from viaspline.mission.shapes.obstacle import Obstacle
-        >>> from viaspline.trajectory.limits import Limits
-        >>> from viaspline.trajectory.retime import retime
-        >>> motion = {"from": (20, 0), "velocity_mps": (-1, 0)}
-        >>> oncoming = Obstacle(circle={"center": (0, 0), "radius": 1}, motion=motion)
-        >>> path = CardinalSpline([(0, 0), (10, 0), (20, 0)])
-        >>> law = retime(path, Limits(max_speed=2, max_accel=1))
-        >>> when, which = first_moving_conflict(path, law, MovingObstacles([oncoming]), 0.5)
-        >>> round(when, 3), which
-        (6.833, 0)
-    """
-    timed = timed_path(path, trajectory)
-    required = number_from("clearance", clearance) + number_from("radius", radius)
-    body = POINT if footprint is None else outline(footprint)
-    held = math.nan if heading is None else number_from("heading", heading)
-    when, index = first_conflict(
-        timed, moving.packed, body, held, _checked_hold(hold), required - PROOF_SLACK_M
-    )
-    return None if index < 0 else (when, index)
 
 
 def timed_path(path: PiecewiseCubic, trajectory: Trajectory) -> TimedPath:

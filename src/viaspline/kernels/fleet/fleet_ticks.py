@@ -31,7 +31,6 @@ SAME_SLOPE = 1e-9
 SWAPPED: Final = 0
 WAITS: Final = 1
 GOES_ON: Final = 2
-ARRIVED: Final = 3
 
 
 class FleetTicks(NamedTuple):

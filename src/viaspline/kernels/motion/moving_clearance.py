@@ -65,7 +65,6 @@ from viaspline.kernels.motion.timed_path import (
 
 MAX_PAIRS = 1_000_000  # that are halved for a bound
 FIRST_SAG_SHARE = 0.01  # of the length of a path: the sag of the strides to start with
-CONFLICT_S = 1e-4  # of two instants nearer to each other than this the earlier one is told [s]
 PLACING_STEPS = 50  # halvings in which the tightest instant is looked for
 FINER = 1e-4  # of the tolerance: that to which it is told whether what is required is kept
 
@@ -250,50 +249,3 @@ def moving_tightest(
     distance, _, _ = law_state(path.law, law_piece(path.law, instant), instant)
     _, x, y = place_of(path, distance)
     return lower, upper, instant, distance, x, y, pairs[0, FACING], int(pairs[0, OBSTACLE])
-
-
-@kernel
-def first_conflict(
-    path: TimedPath, motion: PackedMotion, body: Floats, held: float, hold: float, required: float
-) -> tuple[float, int]:
-    """When a robot first comes too close to something that moves.
-
-    Args:
-        path: TimedPath.
-        motion: PackedMotion.
-        body: See ``moving_tightest``, as for the next two.
-        held: Heading [rad] or nan.
-        hold: How long the robot stands at its end [s].
-        required: Distance that is to be kept [m].
-
-    Returns:
-        (instant [s], index): infinite and -1 where it is proven that it never does; else the first
-        instant from which on, for CONFLICT_S, that can't be proven.
-    """
-    bends = bends_of(path)
-    most = FIRST_SAG_SHARE * path.along[path.along.size - 1]
-    strides, count = strides_of(path, bends, hold, most)
-    outer = outer_radius(body)
-    pairs, size, _, _ = pairs_of(motion, strides, count, outer, required)
-    room = pairs.shape[0]
-    heap = Heap(np.empty(room), np.empty(room, np.int64), np.zeros(1, np.int64))
-    for k in range(SPARE_ROWS, size):
-        if pairs[k, LOWER] - outer < required:
-            push(heap, pairs[k, BEGIN], k)
-    while heap.size[0] > 0:
-        k = pop(heap)
-        small = pairs[k, END] - pairs[k, BEGIN] <= CONFLICT_S and not is_rough(pairs[k])
-        if small or size > MAX_PAIRS:
-            return float(pairs[k, BEGIN]), int(pairs[k, OBSTACLE])
-        if size == room:
-            room *= 2
-            pairs = sized_floats(pairs, size, room)
-            heap = _with_room(heap, room)
-        grown = _sharpened(path, bends, pairs, k, size)
-        for n in range(grown - size + 1):
-            j = k if n == 0 else size
-            _bound(path, motion, bends, body, held, pairs[j], required)
-            if pairs[j, LOWER] < required:
-                push(heap, pairs[j, BEGIN], j)
-        size = grown
-    return np.inf, -1
