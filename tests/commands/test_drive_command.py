@@ -10,10 +10,12 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[1] / "links" / "mavlink"))
 from pymavlink_vehicle import COPTER, PymavlinkVehicle
-from vehicle_on_udp import VehicleOnUdp, free_udp_port
+from vehicle_on_udp import VehicleOnUdp
 
+from free_ports import free_port
 from viaspline.cli import cli
 
 SHORT = """\
@@ -40,7 +42,7 @@ def driven(file: Path, port: int, *more: str) -> Result:
 
 
 def test_a_rover_drives_to_its_goal_and_holds(mission: Path) -> None:
-    port, vehicle = free_udp_port(), PymavlinkVehicle()
+    port, vehicle = free_port(), PymavlinkVehicle()
     with VehicleOnUdp(vehicle, port):
         result = driven(mission, port, *AT_HOME, "--arm")
     assert result.exit_code == 0, result.output
@@ -51,7 +53,7 @@ def test_a_rover_drives_to_its_goal_and_holds(mission: Path) -> None:
 
 
 def test_it_begins_where_it_stands_if_that_is_asked_for(mission: Path) -> None:
-    port, vehicle = free_udp_port(), PymavlinkVehicle(at=(1.0, -1.5), heading=0.5)
+    port, vehicle = free_port(), PymavlinkVehicle(at=(1.0, -1.5), heading=0.5)
     with VehicleOnUdp(vehicle, port):
         refused = driven(mission, port, *AT_HOME, "--arm")
         assert refused.exit_code == 2
@@ -63,7 +65,7 @@ def test_it_begins_where_it_stands_if_that_is_asked_for(mission: Path) -> None:
 
 
 def test_unarmed_it_stays_where_it_is(mission: Path) -> None:
-    port, vehicle = free_udp_port(), PymavlinkVehicle()
+    port, vehicle = free_port(), PymavlinkVehicle()
     with VehicleOnUdp(vehicle, port):
         result = driven(mission, port, *AT_HOME, "--wait", "4")
     assert result.exit_code == 4
@@ -73,7 +75,7 @@ def test_unarmed_it_stays_where_it_is(mission: Path) -> None:
 
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent as POSIX has them")
 def test_ctrl_c_stops_it_before_the_process_ends(mission: Path) -> None:
-    port, vehicle = free_udp_port(), PymavlinkVehicle()
+    port, vehicle = free_port(), PymavlinkVehicle()
     mission.write_text(SHORT.replace("goal: [4, 0]", "goal: [60, 0]"))
     words = words_of(mission, port, *AT_HOME, "--arm")
     with VehicleOnUdp(vehicle, port):
@@ -113,13 +115,13 @@ def test_what_mavlink_cannot_do_is_refused_before_anything_moves(
 ) -> None:
     file = tmp_path / "odd.yaml"
     file.write_text(text)
-    result = driven(file, free_udp_port(), *AT_HOME)
+    result = driven(file, free_port(), *AT_HOME)
     assert result.exit_code == 2, result.output
     assert words in result.output
 
 
 def test_a_plane_is_not_driven(mission: Path) -> None:
-    port, vehicle = free_udp_port(), PymavlinkVehicle(kind=1)
+    port, vehicle = free_port(), PymavlinkVehicle(kind=1)
     with VehicleOnUdp(vehicle, port):
         result = driven(mission, port, *AT_HOME)
     assert result.exit_code == 2
@@ -134,12 +136,12 @@ def test_a_mission_in_space_is_for_copters(tmp_path: Path) -> None:
         "route: {start: [0, 0], takeoff: {to_agl_m: 1.5}, via: [{at: [2, 0], agl_m: 2}],\n"
         "        land: {at: [3, 0]}}\n"
     )
-    port = free_udp_port()
+    port = free_port()
     with VehicleOnUdp(PymavlinkVehicle(), port):
         result = driven(file, port, *AT_HOME)
     assert result.exit_code == 2
     assert "can't fly" in result.output
-    vehicle, port = PymavlinkVehicle(kind=COPTER), free_udp_port()
+    vehicle, port = PymavlinkVehicle(kind=COPTER), free_port()
     with VehicleOnUdp(vehicle, port):
         result = driven(file, port, *AT_HOME, "--arm")
     assert result.exit_code == 0, result.output

@@ -9,10 +9,12 @@ import pytest
 import shapely
 from click.testing import CliRunner, Result
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[1] / "links" / "mavlink"))
 from pymavlink_vehicle import PX4, PymavlinkVehicle, metres_per_degree
-from vehicle_on_udp import VehicleOnUdp, free_udp_port
+from vehicle_on_udp import VehicleOnUdp
 
+from free_ports import free_port
 from viaspline.cli import cli
 
 MISSION = """\
@@ -39,7 +41,7 @@ def uploaded(file: Path, port: int, *more: str) -> Result:
 
 
 def test_via_points_fences_and_speed_are_on_board(mission: Path) -> None:
-    port, vehicle = free_udp_port(), PymavlinkVehicle()
+    port, vehicle = free_port(), PymavlinkVehicle()
     with VehicleOnUdp(vehicle, port):
         result = uploaded(mission, port, "--vias", "--origin", "47.1,8.2")
     assert result.exit_code == 0, result.output
@@ -54,7 +56,7 @@ def test_via_points_fences_and_speed_are_on_board(mission: Path) -> None:
 def test_what_is_on_board_comes_down_again_with_its_rally_points(tmp_path: Path) -> None:
     file = tmp_path / "tour.plan"
     write_plan(file)
-    port, vehicle = free_udp_port(), PymavlinkVehicle(autopilot=PX4)
+    port, vehicle = free_port(), PymavlinkVehicle(autopilot=PX4)
     with VehicleOnUdp(vehicle, port):
         result = uploaded(file, port, "--vias")
         assert result.exit_code == 0, result.output
@@ -100,7 +102,7 @@ def write_plan(file: Path) -> None:
 def test_without_an_origin_nothing_is_sent(
     mission: Path, more: tuple[str, ...], words: str
 ) -> None:
-    result = uploaded(mission, free_udp_port(), "--vias", *more)
+    result = uploaded(mission, free_port(), "--vias", *more)
     assert result.exit_code == 2
     assert words in result.output
 
@@ -108,7 +110,7 @@ def test_without_an_origin_nothing_is_sent(
 def test_two_origins_are_one_too_many(tmp_path: Path) -> None:
     file = tmp_path / "tour.plan"
     write_plan(file)
-    result = uploaded(file, free_udp_port(), "--vias", "--origin", "47.2,8.2")
+    result = uploaded(file, free_port(), "--vias", "--origin", "47.2,8.2")
     assert result.exit_code == 2
     assert "the file has its own origin, 47.1,8.2; leave out --origin" in result.output
 
@@ -117,7 +119,7 @@ def test_an_origin_that_was_set_in_the_studio_is_told_before_anything_is_sent(
     mission: Path,
 ) -> None:
     mission.with_name("yard.yaml.studio.json").write_text('{"origin": [47.25, 8.5]}')
-    port, vehicle = free_udp_port(), PymavlinkVehicle()
+    port, vehicle = free_port(), PymavlinkVehicle()
     with VehicleOnUdp(vehicle, port):
         result = uploaded(mission, port, "--vias")
     assert result.exit_code == 0, result.output
@@ -127,13 +129,13 @@ def test_an_origin_that_was_set_in_the_studio_is_told_before_anything_is_sent(
 
 
 def test_nobody_answers(mission: Path) -> None:
-    result = uploaded(mission, free_udp_port(), "--vias", "--origin", "47.1,8.2", "--wait", "1")
+    result = uploaded(mission, free_port(), "--vias", "--origin", "47.1,8.2", "--wait", "1")
     assert result.exit_code == 2
     assert "no autopilot was heard in 1 s" in result.output
 
 
 def test_a_fence_may_be_left_as_it_is(mission: Path) -> None:
-    port, vehicle = free_udp_port(), PymavlinkVehicle()
+    port, vehicle = free_port(), PymavlinkVehicle()
     vehicle.unsupported = {1}
     with VehicleOnUdp(vehicle, port):
         result = uploaded(mission, port, "--vias", "--origin", "47.1,8.2")
@@ -147,7 +149,7 @@ def test_a_rally_point_that_is_no_place_is_a_fault(tmp_path: Path) -> None:
     file = tmp_path / "tour.plan"
     write_plan(file)
     file.write_text(file.read_text().replace("47.2", '"x"'))
-    result = uploaded(file, free_udp_port(), "--vias")
+    result = uploaded(file, free_port(), "--vias")
     assert result.exit_code == 2
     assert "rallyPoints.points[1]" in result.output
 
@@ -159,14 +161,14 @@ def test_a_fleet_is_refused(tmp_path: Path) -> None:
         "  - {name: a, route: {start: [0, 0], goal: [9, 0]}}\n"
         "  - {name: b, route: {start: [0, 9], goal: [9, 9]}}\n"
     )
-    result = uploaded(file, free_udp_port(), "--vias", "--origin", "47.1,8.2")
+    result = uploaded(file, free_port(), "--vias", "--origin", "47.1,8.2")
     assert result.exit_code == 2
     assert "this is a fleet" in result.output
 
 
 def test_the_proven_path_is_on_board_with_its_speeds_and_radius(mission: Path) -> None:
     mission.write_text(MISSION.replace("[20, 0], dwell_s: 7", "[20, 16], dwell_s: 7"))
-    port, vehicle = free_udp_port(), PymavlinkVehicle()
+    port, vehicle = free_port(), PymavlinkVehicle()
     with VehicleOnUdp(vehicle, port):
         result = uploaded(mission, port, "--origin", "47.1,8.2")
     assert result.exit_code == 0, result.output
@@ -187,7 +189,7 @@ def test_what_was_exported_goes_up_as_it_stands(mission: Path, tmp_path: Path) -
     words = ["export", str(mission), str(file), "--origin", "47.1,8.2"]
     exported = CliRunner().invoke(cli, words)
     assert exported.exit_code == 0, exported.output
-    port, vehicle = free_udp_port(), PymavlinkVehicle(autopilot=PX4)
+    port, vehicle = free_port(), PymavlinkVehicle(autopilot=PX4)
     with VehicleOnUdp(vehicle, port):
         result = uploaded(file, port, "--vias")
     assert result.exit_code == 0, result.output

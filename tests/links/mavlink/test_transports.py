@@ -2,19 +2,17 @@
 
 import os
 import socket
+import sys
 import threading
+from pathlib import Path
 
 import pytest
 
+sys.path.insert(0, str(Path(__file__).parents[2]))
+from free_ports import free_port
 from viaspline.errors import LinkError
 from viaspline.links.mavlink.addresses import LinkAddress, parse_address
 from viaspline.links.mavlink.transport import open_transport
-
-
-def free_port(kind: socket.SocketKind = socket.SOCK_DGRAM) -> int:
-    with socket.socket(socket.AF_INET, kind) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import itertools
-import os
 import socket
 import threading
 import time
@@ -44,22 +42,3 @@ class VehicleOnUdp(threading.Thread):
     def __exit__(self, *_: object) -> None:
         self.is_over.set()
         self.join()
-
-
-_ASKED = itertools.count()
-
-
-def free_udp_port() -> int:
-    """A port that nobody has: of this process of the tests alone, and none that systems hand out.
-
-    One that a system hands out may be another process's before it is taken here.
-    """
-    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-    while True:
-        port = 20_000 + 500 * (worker % 20) + next(_ASKED) % 500
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(("127.0.0.1", port))
-            except OSError:
-                continue
-            return port

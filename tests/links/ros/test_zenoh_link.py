@@ -7,15 +7,19 @@ our own would agree on anything.
 import json
 import socket
 import struct
+import sys
 import threading
 import time
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
+sys.path.insert(0, str(Path(__file__).parents[2]))
+from free_ports import free_port
 from viaspline.errors import LinkError
 from viaspline.links.ros import ros_mailbox, zenoh_link
 from viaspline.links.ros.ros_topics import Qos
@@ -29,16 +33,10 @@ STORE = get_typestore(Stores.ROS2_JAZZY)
 STRING_HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 
 
-def free_port() -> int:
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return int(one.getsockname()[1])
-
-
 @pytest.fixture
 def router() -> Iterator[str]:
     """A zenoh router on a port of its own: its address."""
-    endpoint = f"tcp/127.0.0.1:{free_port()}"
+    endpoint = f"tcp/127.0.0.1:{free_port(socket.SOCK_STREAM)}"
     with zenoh.open(_config("router", listen=[endpoint])):
         yield endpoint
 
@@ -186,7 +184,7 @@ def test_a_map_that_was_said_before_is_heard(router: str) -> None:
 
 def test_without_a_router_it_is_said_what_to_start() -> None:
     with pytest.raises(LinkError, match="rmw_zenohd"):
-        ZenohLink(f"tcp/127.0.0.1:{free_port()}", 0, {}, {}, standard_book())
+        ZenohLink(f"tcp/127.0.0.1:{free_port(socket.SOCK_STREAM)}", 0, {}, {}, standard_book())
 
 
 def test_without_the_extra_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
