@@ -186,7 +186,7 @@ def _rides(driven: DrivenFleet, before: FleetPlan, changed: str) -> FleetRides:
     leave = alone.leave + later
     leave[first[1:] - 1] = np.inf
     laws = alone._replace(arrive=alone.arrive + later, leave=leave)
-    lasts = alone.arrive[first[1:] - 1] + driven.rides.stays[first[1:] - 1]
+    lasts = alone.leave[first[1:] - 1]
     known, was = before.rides.laws.packed, before.courses.packed.first
     numbers = {name: k for k, name in enumerate(before.names) if name != changed}
     for robot, name in enumerate(driven.names):

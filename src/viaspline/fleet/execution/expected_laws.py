@@ -47,8 +47,8 @@ def expected_laws(
         gone = np.flatnonzero(along[1:] <= packed.progress[robot]) + nodes.start
         arrive[gone] = leave[gone] = -np.inf  # who joins may have stood there since ever
         last = nodes.stop - 1
-        gone = arrive[last] + fleet.rides.stays[last]
-        leave[last] = gone if fleet.rides.vanishes[robot] else np.inf
+        arrived = arrive[last] + fleet.rides.stays[last]
+        leave[last] = arrived if fleet.rides.vanishes[robot] else np.inf
     return PackedLaws(arrive, leave, alone.speed.copy(), ~state.out)
 
 

@@ -371,7 +371,7 @@ class FleetNavigator:
             orders, state.packed.leaders, state.sequence, state.packed.head, begin
         )[1]
         ends = self._fleet.courses.packed.first[1:] - 1
-        arrive = last + self._fleet.alone.arrive[ends] + self._fleet.rides.stays[ends]
+        arrive = last + self._fleet.alone.leave[ends]
         arrive[self._state.stuck() >= 0] = np.inf
         if self._fleet.rounds is not None:
             arrive[self._fleet.rounds > 0.0] = np.inf

@@ -152,7 +152,7 @@ def _longest(fleet: DrivenFleet, delays: Delays, trouble: PackedTrouble, begin: 
     is_timed = fleet.laws.packed.is_timed
     planned = fleet.laws.packed.arrive[ends][is_timed].max(initial=begin) - begin
     slower = 1.0 / (1.0 - delays.slowed) / (1.0 - delays.lost)
-    alone = (fleet.alone.arrive[ends] + fleet.rides.stays[ends]).sum()
+    alone = fleet.alone.leave[ends].sum()
     return float(min(60.0 + 10.0 * slower * planned + alone + trouble.halts.sum(), LONGEST_S))
 
 

@@ -133,12 +133,13 @@ def _behind_all_laps(asked: AskedPatrols, timed: TimedFleet, until: float) -> di
 
     They find no gap between laps, and wait for these to be over, which they never are.
     """
-    packed, found = timed.ways.crossings.packed, {}
-    for robot in np.flatnonzero(timed.arrivals() > until).tolist():
+    packed, arrivals, found = timed.ways.crossings.packed, timed.arrivals(), {}
+    comes = np.isfinite(arrivals) & ~asked.flags
+    for robot in np.flatnonzero(comes & (arrivals > until)).tolist():
         boxes = slice(int(packed.box_first[robot]), int(packed.box_first[robot + 1]))
         met = packed.other[boxes]
         met = met[asked.flags[met]]
-        if np.isfinite(timed.arrivals()[robot]) and not asked.flags[robot] and len(met):
+        if len(met):
             found[robot] = int(np.bincount(met).argmax())
     return found
 

@@ -10,12 +10,9 @@ import math
 
 from viaspline.curve.path import Path
 from viaspline.machine.turns_on_spot import CORNER_RAD, TURN, SpotTurning, heading_onward
-from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
+from viaspline.robot.navigation.progress import REST_MPS, SAME_PLACE_M, Progress
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.trajectory import Trajectory
-
-AT_REST_MPS = 1e-9
-"""A robot that is slower is at rest: what a law ends with may be off by rounding [m/s]."""
 
 SAME_WAY_RAD = 1e-9
 """Headings nearer than this are the same [rad]."""
@@ -42,7 +39,7 @@ def facing_at(
     distance = max(distance, progress.distance)
     before = max(distance - 2.0 * SAME_PLACE_M, progress.distance)
     came = float(path.heading(float(path.parameter(before))))
-    if speed > AT_REST_MPS:
+    if speed > REST_MPS:
         return came
     facing, since, onward = progress.facing, progress.time, heading_onward(path, distance)
     if distance > progress.distance + SAME_PLACE_M:

@@ -12,6 +12,9 @@ from viaspline.robot.controller import Controller
 SAME_PLACE_M = 1e-6
 """Distances nearer than this are the same place [m]."""
 
+REST_MPS = 1e-9
+"""A robot that is slower is at rest: what a law ends with may be off by rounding [m/s]."""
+
 
 @dataclass(frozen=True)
 class Dwell:

@@ -18,7 +18,7 @@ from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.pending_search import FIRST_STAGE
-from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
+from viaspline.robot.navigation.progress import REST_MPS, SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
 from viaspline.robot.run import Event
 from viaspline.world.world import World
@@ -26,9 +26,6 @@ from viaspline.world.world import World
 PATH_END_U = 1e-9
 """A via point whose parameter is nearer than this to the path's end is the goal."""
 
-
-REST_MPS = 1e-9
-"""A robot that is slower is at rest: what a law ends with may be off by rounding [m/s]."""
 
 NOTHING: Mapping[Hashable, object] = MappingProxyType({})
 """What has come before a search that begins."""

@@ -8,6 +8,7 @@ or beside it, and timed as well; or round what it passes of that way while the r
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Final
@@ -58,8 +59,9 @@ def plan_past_moving(static: SpatialPlan) -> SpatialPlan:
     found = [] if isinstance(first, str) else [first]
     in_the_way = {first} if isinstance(first, str) else {one.obstacle for one in first.waits}
     if isinstance(first, str) or first.trajectory.end_time > law.end_time + WORTH_S:
+        moving = _beside(static)
         for beside in BESIDE_S:
-            found += _led_round(static, in_the_way, beside)
+            found += _led_round(static, moving, in_the_way, beside)
             if found and min(one.trajectory.end_time for one in found) < law.end_time + WORTH_S:
                 break
     if not found:
@@ -102,15 +104,18 @@ def _timed(plan: SpatialPlan) -> SpatialPlan | str:
     return replace(plan, trajectory=past.trajectory, moving=past.proof, waits=past.waits)
 
 
-def _led_round(static: SpatialPlan, in_the_way: set[str], beside: float) -> list[SpatialPlan]:
+def _led_round(
+    static: SpatialPlan, moving: Sequence[MovingSolid], in_the_way: set[str], beside: float
+) -> list[SpatialPlan]:
     """Plans on paths round the way of what is met, and of what these meet then.
 
     Args:
         static: The plan as if nothing moved.
+        moving: What moves beside it.
         in_the_way: The names of what it meets.
         beside: How long before and after it is nearest what is met is gone round [s].
     """
-    moving, round_them = _beside(static), set(in_the_way)
+    round_them = set(in_the_way)
     for _ in range(MAX_ROUNDS):
         met = [_near(one, static, beside) for one in moving if one.name in round_them]
         obstacles = [part for one in met for part in swept(one, static)]
