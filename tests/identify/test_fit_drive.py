@@ -15,6 +15,7 @@ from viaspline.identify.fit_drive import fit_drive
 from viaspline.identify.identified_drive import IdentifiedDrive, drive_block
 from viaspline.identify.simulated_log import simulated_log
 from viaspline.identify.standard_drive import standard_commands
+from viaspline.kernels.arrays import Floats
 from viaspline.machine.allowance import allowance
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.trial_drive import follow
@@ -106,6 +107,61 @@ def test_a_limit_that_another_one_hides_is_found() -> None:
     assert found.yaw_accel is not None
     assert math.degrees(found.yaw_accel.value) == pytest.approx(1.25 * 60.0, rel=0.1)
     assert "delay_s: 0  #" in drive_block(found, 0.5) or found.delay.value > 1e-3
+
+
+def wheeled_log(accel: float, arm: float, lag: float, commands: Floats, seed: int = 0) -> DriveLog:
+    """Of two wheels with motors that end, reckoned step by step, poses with a noise of 2 mm."""
+    step, chance = 0.001, np.random.default_rng(seed)
+    x = y = heading = 0.0
+    left = right = 0.0
+    rows = []
+    for _, speed, rate in commands:
+        rows.append((x, y, heading))
+        for _ in range(round((commands[1, 0] - commands[0, 0]) / step)):
+            asked = (speed - arm * rate - left) / lag, (speed + arm * rate - right) / lag
+            left, right = (
+                one + step * min(max(change, -accel), accel)
+                for one, change in zip((left, right), asked, strict=True)
+            )
+            heading += step * (right - left) / (2.0 * arm)
+            x += step * 0.5 * (left + right) * math.cos(heading)
+            y += step * 0.5 * (left + right) * math.sin(heading)
+    places = np.array(rows) + chance.normal(0.0, (0.002, 0.002, 0.001), (len(rows), 3))
+    return DriveLog(commands[:, 0], *places.T, commands[:, 1], commands[:, 2])
+
+
+@settings(max_examples=2)
+@given(
+    accel=st.floats(0.6, 3.0),
+    arm=st.floats(0.06, 0.3),
+    lag=st.floats(0.04, 0.3),
+    seed=st.integers(0, 10_000),
+)
+def test_a_robot_that_does_not_turn_while_its_wheels_speed_up_has_no_noise(
+    accel: float, arm: float, lag: float, seed: int
+) -> None:
+    """What its motors hadn't left to turn with was taken for a noise of 8 degrees a second."""
+    commands = standard_commands(1.0, 1.5, 0.05)
+    found = fit_drive(wheeled_log(accel, arm, lag, commands, seed))
+    assert math.degrees(sum(found.yaw_noise)) < 1.5
+    assert abs(found.lag.value - lag) <= SPREADS * found.lag.spread + 0.01
+    if found.accels_are_shared:
+        assert found.accel is not None
+        assert found.yaw_accel is not None
+        assert found.accel.value == pytest.approx(accel, rel=0.1)
+        assert found.yaw_accel.value == pytest.approx(accel / arm, rel=0.25)
+
+
+def test_what_the_wheels_share_is_said_with_the_keys() -> None:
+    found = fit_drive(wheeled_log(1.2, 0.2, 0.1, standard_commands(1.0, 1.5, 0.05)))
+    assert found.accels_are_shared
+    text = drive_block(found, 0.4)
+    assert "max_accel_mps2: 0.6" in text
+    assert "the other half of its wheels' is the speed's" in text
+
+
+def test_limits_that_are_apart_are_not_taken_for_those_of_wheels(found: IdentifiedDrive) -> None:
+    assert not found.accels_are_shared
 
 
 def test_the_greatest_yaw_rate_that_was_driven_is_a_limit_to_paste(found: IdentifiedDrive) -> None:

@@ -16,15 +16,18 @@ from viaspline.identify.fit_noise import FittedNoise, fit_noise
 from viaspline.identify.fit_parameters import fitted_parameters
 from viaspline.identify.fit_problem import (
     ACCEL,
+    ARM,
     DELAY,
     LAG,
     PARAMETERS,
     SPEED_SHARE,
     TOP,
+    WHEEL_ACCEL,
     YAW_ACCEL,
     YAW_SHARE,
     FitProblem,
     fit_problem,
+    has_wheels,
 )
 from viaspline.identify.identified_drive import Estimate, IdentifiedDrive
 from viaspline.kernels.arrays import Floats
@@ -115,6 +118,10 @@ def _identified(
     def limit(i: int) -> Estimate | None:
         return figure(i) if math.isfinite(p[i]) else None
 
+    accel, yaw_accel = limit(ACCEL), limit(YAW_ACCEL)
+    if has_wheels(p):
+        accel = figure(WHEEL_ACCEL)
+        yaw_accel = _quotient(accel, figure(ARM))
     along, turned = noises
     fastest, fastest_turn = (float(np.abs(one).max()) for one in problem.motion(p))
     return IdentifiedDrive(
@@ -123,8 +130,9 @@ def _identified(
         speed_share=figure(SPEED_SHARE),
         yaw_share=figure(YAW_SHARE),
         top_speed=limit(TOP),
-        accel=limit(ACCEL),
-        yaw_accel=limit(YAW_ACCEL),
+        accel=accel,
+        yaw_accel=yaw_accel,
+        accels_are_shared=has_wheels(p),
         speed_noise=along.driven,
         yaw_noise=turned.driven,
         position_noise=along.measured,
@@ -133,3 +141,8 @@ def _identified(
         fastest_turn=fastest_turn,
         seconds=problem.log.seconds,
     )
+
+
+def _quotient(one: Estimate, other: Estimate) -> Estimate:
+    relative = math.hypot(one.spread / one.value, other.spread / other.value)
+    return Estimate(one.value / other.value, one.value / other.value * relative)

@@ -11,10 +11,13 @@ import numpy as np
 
 from viaspline.identify.fit_problem import (
     ACCEL,
+    ARM,
     DELAY,
     LAG,
+    PARAMETERS,
     SPEED_SHARE,
     TOP,
+    WHEEL_ACCEL,
     WINDOW_S,
     YAW_ACCEL,
     YAW_SHARE,
@@ -34,6 +37,10 @@ SHORT_LAG_S = 0.1
 ACTIVE_SHARE = 0.01
 """A limit shows in a log if it holds in so much of it."""
 
+START_ARMS, ARM_RANGE = (0.05, 0.15, 0.5), (0.01, 2.0)
+"""Arms of the wheels, as shares of the metres driven for each radian turned: from which one is
+fitted, and within which one is looked for."""
+
 ALWAYS = {DELAY: (0.0, MAX_DELAY_S), LAG: (0.0, MAX_LAG_S), SPEED_SHARE: (0.05, 2.0),
           YAW_SHARE: (0.05, 2.0)}  # fmt: skip
 """What is fitted to every log, with the least and the greatest value."""
@@ -42,22 +49,48 @@ ALWAYS = {DELAY: (0.0, MAX_DELAY_S), LAG: (0.0, MAX_LAG_S), SPEED_SHARE: (0.05, 
 def fitted_parameters(problem: FitProblem) -> tuple[Floats, list[int]]:
     """The parameters, and which of them the log shows.
 
-    Limits are added one by one, always the one that fits best. One that made no difference may
-    make one when another is known, so each is tried again then.
+    Both ways to limit changes are fitted: the speed's and the yaw rate's apart, and the wheels'.
     """
-    p = np.array([0.0, 0.0, 1.0, 1.0, np.inf, np.inf, np.inf])
+    p, bounds = _unlimited(problem)
+    apart = _with_limits(problem, p, bounds, (ACCEL, YAW_ACCEL, TOP))
+    wheels = [
+        _with_limits(problem, tried, limits, (TOP,))
+        for tried, limits in _on_wheels(problem, p, bounds)
+    ]
+    best = min(wheels, key=lambda one: _cost(problem, one[0]), default=apart)
+    more = max(len(best[1]) - len(apart[1]), 1)
+    return best if _is_better(problem, best[0], apart[0], more) else apart
+
+
+def _unlimited(problem: FitProblem) -> tuple[Floats, dict[int, tuple[float, float]]]:
+    """The parameters without any limits, and the bounds of each that is fitted."""
+    p = np.full(PARAMETERS, np.inf)
+    p[[SPEED_SHARE, YAW_SHARE]] = 1.0
     grid = [(delay, lag) for delay in START_DELAYS for lag in START_LAGS]
     costs = []
     for delay, lag in grid:
         p[[DELAY, LAG]] = delay, lag
         costs.append(_cost(problem, p))
     p[[DELAY, LAG]] = grid[int(np.argmin(costs))]
-    bounds = dict(ALWAYS)
-    p = _solved(problem, p, bounds)
+    return _solved(problem, p, ALWAYS), dict(ALWAYS)
+
+
+def _with_limits(
+    problem: FitProblem,
+    p: Floats,
+    bounds: dict[int, tuple[float, float]],
+    limits: tuple[int, ...],
+) -> tuple[Floats, list[int]]:
+    """Parameters with all limits that a log shows, and which are fitted then.
+
+    Limits are added one by one, always the one that fits best. One that made no difference may
+    make one when another is known, so each is tried again then.
+    """
+    bounds = dict(bounds)
     while True:
         found = [
             (_cost(problem, tried), which, tried)
-            for which in (ACCEL, YAW_ACCEL, TOP)
+            for which in limits
             if which not in bounds
             for tried in _with_limit(problem, p, bounds, which)
         ]
@@ -80,6 +113,25 @@ def _with_limit(
         tried = _solved(problem, start, {**bounds, which: (low, high)})
         if _is_better(problem, tried, p) and _is_active(problem, tried, which):
             found.append(tried)
+    return found
+
+
+def _on_wheels(
+    problem: FitProblem, p: Floats, bounds: dict[int, tuple[float, float]]
+) -> list[tuple[Floats, dict[int, tuple[float, float]]]]:
+    """Parameters with the limit of the wheels, as far as the log shows it, and their bounds."""
+    least, likely, most = _likely(problem, p, ACCEL)
+    metres = problem.scale[0] / problem.scale[1]
+    low, high = (metres * share for share in ARM_RANGE)
+    limited = {**bounds, WHEEL_ACCEL: (least, most), ARM: (low, high)}
+    found = []
+    for share in START_ARMS:
+        start = p.copy()
+        start[[WHEEL_ACCEL, ARM]] = likely, metres * share
+        start[LAG] = min(float(p[LAG]), SHORT_LAG_S)
+        tried = _solved(problem, start, limited)
+        if _is_active(problem, tried, WHEEL_ACCEL):
+            found.append((tried, limited))
     return found
 
 
@@ -119,17 +171,20 @@ def _cost(problem: FitProblem, p: Floats) -> float:
     return float(np.sum(problem.residuals(p) ** 2))
 
 
-def _is_better(problem: FitProblem, one: Floats, other: Floats) -> bool:
-    """Whether one more parameter fits clearly better (Akaike, for windows that overlap)."""
+def _is_better(problem: FitProblem, one: Floats, other: Floats, more: int = 1) -> bool:
+    """Whether more parameters fit clearly better (Akaike, for windows that overlap)."""
     costs = [_cost(problem, p) for p in (one, other)]
     apart = 2.0 * problem.log.seconds / WINDOW_S
-    return apart * math.log(max(costs[1], 1e-300) / max(costs[0], 1e-300)) > 6.0
+    return apart * math.log(max(costs[1], 1e-300) / max(costs[0], 1e-300)) > 6.0 * more
 
 
 def _is_active(problem: FitProblem, p: Floats, which: int) -> bool:
     speed, yaw = problem.motion(p)
     if which == TOP:
         held_back = np.abs(speed) > 0.99 * p[TOP]
+    elif which == WHEEL_ACCEL:
+        most = np.abs(np.diff(speed)) + p[ARM] * np.abs(np.diff(yaw))
+        held_back = most > 0.99 * p[WHEEL_ACCEL] * problem.step
     else:
         one, slope = (speed, p[ACCEL]) if which == ACCEL else (yaw, p[YAW_ACCEL])
         held_back = np.abs(np.diff(one)) > 0.99 * slope * problem.step

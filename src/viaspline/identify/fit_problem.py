@@ -5,6 +5,7 @@ Tested through ``identify/test_fit_drive``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,10 +13,12 @@ import numpy as np
 from viaspline.identify.drive_log import DriveLog, DriveLogError
 from viaspline.identify.drive_response import (
     ChannelLimits,
+    WheelLimits,
     fine_times,
     held,
     response,
     summed,
+    wheel_response,
 )
 from viaspline.kernels.arrays import Floats, Ints
 
@@ -25,10 +28,11 @@ WINDOW_S = 0.5
 LEAST_DRIVEN = 0.2
 """Metres, and radians, that have to be driven at least."""
 
-DELAY, LAG, SPEED_SHARE, YAW_SHARE, TOP, ACCEL, YAW_ACCEL = range(7)
-"""The parameters of a drive: the first four always, the limits where a log shows them."""
+DELAY, LAG, SPEED_SHARE, YAW_SHARE, TOP, ACCEL, YAW_ACCEL, WHEEL_ACCEL, ARM = range(9)
+"""The parameters of a drive: the first four always, the limits where a log shows them. Those of the
+speed and of the yaw rate are apart, or both are the wheels', which act an arm from the middle."""
 
-PARAMETERS = 7
+PARAMETERS = 9
 
 
 @dataclass(frozen=True)
@@ -62,6 +66,9 @@ class FitProblem:
         speed = ChannelLimits(float(p[SPEED_SHARE]), float(p[ACCEL]), float(p[TOP]))
         yaw = ChannelLimits(float(p[YAW_SHARE]), float(p[YAW_ACCEL]))
         lag = float(p[LAG])
+        if has_wheels(p):
+            wheels = WheelLimits(float(p[ARM]), float(p[WHEEL_ACCEL]))
+            return wheel_response(self.told, self.step, lag, (speed, yaw), wheels, self.first)
         return (
             response(self.told[0], self.step, lag, speed, self.first[0]),
             response(self.told[1], self.step, lag, yaw, self.first[1]),
@@ -84,6 +91,11 @@ class FitProblem:
             for one, driven, scale in zip(self.modelled(p), self.driven, self.scale, strict=True)
         ]
         return np.concatenate(rest)
+
+
+def has_wheels(p: Floats) -> bool:
+    """Whether the limits of parameters are those of wheels."""
+    return math.isfinite(p[WHEEL_ACCEL])
 
 
 def fit_problem(log: DriveLog) -> FitProblem:

@@ -46,6 +46,8 @@ class IdentifiedDrive:
         top_speed: The greatest speed [m/s].
         accel: The greatest change of the speed [m/s²].
         yaw_accel: The greatest change of the yaw rate [rad/s²].
+        accels_are_shared: Both changes come from the motors of two wheels: while one is at its
+            greatest there is nothing of the other.
         speed_noise: Of the speed that is driven [m/s], standard deviation.
         yaw_noise: Of the yaw rate that is driven [rad/s].
         position_noise: Of a measured coordinate [m].
@@ -62,6 +64,7 @@ class IdentifiedDrive:
     top_speed: Estimate | None
     accel: Estimate | None
     yaw_accel: Estimate | None
+    accels_are_shared: bool
     speed_noise: Estimate
     yaw_noise: Estimate
     position_noise: Estimate
@@ -96,8 +99,11 @@ def drive_block(drive: IdentifiedDrive, track: float) -> str:
     words = "no greater one was driven; with a fifth left for control"
     lines.append(f"  max_yaw_rate_degps: {turn:.3g}  # {words}")
     if drive.yaw_accel is not None:
-        most = _scaled(drive.yaw_accel, deg(1.0) / YAW_RESERVE)
-        lines.append(_line("  max_yaw_accel_degps2", most, "with a fifth left for control"))
+        kept, words = YAW_RESERVE, "with a fifth left for control"
+        if drive.accels_are_shared:
+            kept, words = ACCEL_RESERVE, "a half: the other half of its wheels' is the speed's"
+        most = _scaled(drive.yaw_accel, deg(1.0) / kept)
+        lines.append(_line("  max_yaw_accel_degps2", most, words))
     slip = 1.0 - drive.yaw_share.value
     kind = f"differential: {{track_m: {track:g}}}"
     if slip > max(SLIPS_FROM, 2.0 * drive.yaw_share.spread):
