@@ -188,7 +188,8 @@ class Navigator:
         The constructor does that unless it is refused there. On a machine that never did it the
         kernels are compiled, in a process of their own, by driving small missions of the kind; that
         takes a minute or two. From then on it takes a second in each process, and nothing when it
-        was done before.
+        was done before. All that is there by then is taken out of garbage collections (by
+        ``gc.freeze``), which would halt a step for a tenth of a second.
 
         Args:
             progress: Hears the name of every kernel that has to be compiled.

@@ -1,7 +1,8 @@
 """What a mission needs, loaded before it is driven; compiled, if that has never been done.
 
 What was never compiled is by driving small missions of its kind, in a process of its own, which
-lists what they need. What is on that list is then loaded here.
+lists what they need. What is on that list is then loaded here, and no garbage collection of a later
+step looks at it again.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING
 from viaspline.warming.compile_apart import Tell, compile_apart
 from viaspline.warming.kernel_list import KernelList, package_key
 from viaspline.warming.mission_kind import MissionKind, kinds_of
+from viaspline.warming.spared_collections import spare_collections
 
 if TYPE_CHECKING:
     from viaspline.mission.fleet.fleet import Fleet
@@ -28,6 +30,7 @@ def warm_up(asked: Mission | Fleet, tell: Tell | None = None) -> None:
     key = package_key()
     for kind in kinds_of(asked):
         warm_kind(kind, key, tell or _silent)
+    spare_collections()
 
 
 def warm_kind(kind: MissionKind, key: str, tell: Tell) -> None:
