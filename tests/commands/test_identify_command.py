@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -43,6 +44,33 @@ def test_what_is_simulated_is_identified_and_can_be_pasted(tmp_path: Path) -> No
     assert (tmp_path / "drive.yaml").read_text() == found.output
 
 
+def test_a_car_is_identified_and_can_be_pasted(tmp_path: Path) -> None:
+    car = MISSION.replace("differential: {track_m: 0.4}",
+                          "ackermann: {wheelbase_m: 0.9, max_steer_deg: 25}")  # fmt: skip
+    (tmp_path / "m.yaml").write_text(car)
+    done = run("--drive", tmp_path / "log.csv", "--on", tmp_path / "m.yaml", "--max-yaw-rate", 9)
+    assert done.exit_code == 0, done.output
+    found = run(tmp_path / "log.csv", "--wheelbase", 0.9)
+    assert found.exit_code == 0, found.output
+    block = YAML(typ="safe").load(found.output)
+    mission = Mission.model_validate({**block, "route": {"start": [0, 0], "goal": [10, 0]}})
+    assert mission.robot.drive is not None
+    radius = mission.robot.drive.kind.turn_radius
+    assert radius is not None
+    assert radius > 0.95 * 0.9 / math.tan(math.radians(25.0))
+
+
+def test_no_command_is_tighter_than_the_turning_circle(tmp_path: Path) -> None:
+    out = tmp_path / "c.csv"
+    done = run("--drive", out, "--max-yaw-rate", 9, "--turn-radius", 3.0)
+    assert done.exit_code == 0, done.output
+    rows = [[float(one) for one in row.split(",")] for row in out.read_text().splitlines()[1:]]
+    turned = [abs(rate) / speed for _, speed, rate in rows if rate]
+    assert max(turned) == pytest.approx(1.0 / 3.0, abs=1e-3)
+    assert any(rate > 0.0 for _, _, rate in rows)
+    assert any(rate < 0.0 for _, _, rate in rows)
+
+
 def test_commands_are_written_with_the_ground_that_they_take(tmp_path: Path) -> None:
     done = run("--drive", tmp_path / "c.csv", "--max-speed", 2, "--period", 0.1)
     assert done.exit_code == 0, done.output
@@ -60,6 +88,10 @@ def test_commands_are_written_with_the_ground_that_they_take(tmp_path: Path) -> 
         (["--drive", "b.csv", "--period", "60"], 2, "give 0.001 to 0.2 s"),
         (["--drive", "b.csv", "--period", "1e-9"], 2, "give 0.001 to 0.2 s"),
         (["a.csv", "--max-speed", "1"], 2, "go with --drive"),
+        (["a.csv", "--turn-radius", "1"], 2, "go with --drive"),
+        (["a.csv", "--track", "1", "--wheelbase", "1"], 2, "not both"),
+        (["--drive", "b.csv", "--wheelbase", "1"], 2, "not both"),
+        (["a.csv", "--wheelbase", "0"], 2, "--wheelbase"),
         (["none.csv"], 2, "no such file"),
         (["--drive", "c.csv", "--seed", "1"], 2, "--seed goes with --on"),
         (["--drive", "/nowhere/c.csv"], 2, "no such file"),

@@ -152,6 +152,61 @@ def test_a_robot_that_does_not_turn_while_its_wheels_speed_up_has_no_noise(
         assert found.yaw_accel.value == pytest.approx(accel / arm, rel=0.25)
 
 
+def car(wheelbase: float, lock: float, rate: float | None, delay: float) -> RobotSpec:
+    steered = {
+        "wheelbase_m": wheelbase, "max_steer_deg": lock, "max_steer_rate_degps": rate,
+    }  # fmt: skip
+    return RobotSpec(
+        max_speed_mps=2.0,
+        drive={"ackermann": steered, "delay_s": delay, "lag_s": 0.1, "yaw_rate_noise_degps": 0.3},
+        localization={"position_noise_m": 0.004, "heading_noise_deg": 0.2},
+    )
+
+
+@settings(max_examples=2)
+@given(
+    wheelbase=st.floats(0.3, 2.5),
+    lock=st.floats(18.0, 38.0),
+    rate=st.one_of(st.none(), st.floats(25.0, 60.0)),
+    delay=st.floats(0.0, 0.4),
+    asked=st.sampled_from((0.75, 1.15)),
+    seed=st.integers(0, 10_000),
+)
+def test_of_a_car_no_sharper_turn_is_said_than_its_lock_allows(
+    wheelbase: float, lock: float, rate: float | None, delay: float, asked: float, seed: int
+) -> None:
+    """Whether it was told to turn more tightly than that, or never as tightly."""
+    true = car(wheelbase, lock, rate, delay)
+    assert true.turn_radius is not None
+    commands = standard_commands(2.0, 20.0, 0.05, asked * true.turn_radius)
+    found = fit_drive(simulated_log(true, commands, seed), wheelbase=wheelbase)
+    assert found.steering is not None
+    assert found.yaw_accel is None
+    assert math.degrees(found.steering.widest) < lock + 0.6
+    if asked < 1.0 and rate is None:
+        assert found.steering.most is not None
+        assert math.degrees(found.steering.most.value) == pytest.approx(lock, abs=1.0)
+    if rate is not None:
+        assert found.steering.rate is not None
+        assert math.degrees(found.steering.rate.value) == pytest.approx(rate, rel=0.15)
+    assert abs(found.delay.value - delay) <= SPREADS * found.delay.spread + 0.02
+
+
+def test_a_car_that_slips_out_of_its_turns_steers_less_than_it_is_told() -> None:
+    commands = standard_commands(2.0, 20.0, 0.05, 4.0)
+    log = simulated_log(car(1.2, 35.0, None, 0.1), commands, seed=2)
+    less = DriveLog(
+        log.times, log.x, log.y, log.headings, log.speeds, log.yaw_rates / 0.8,
+    )  # fmt: skip
+    found = fit_drive(less, wheelbase=1.2)
+    assert found.yaw_share.value == pytest.approx(0.8, abs=0.02)
+    assert found.steering is not None
+    assert math.tan(found.steering.widest) == pytest.approx(1.2 / 4.0, rel=0.05)
+    text = drive_block(found, 0.5)
+    assert "ackermann:" in text
+    assert "give it 1.2" in text
+
+
 def test_what_the_wheels_share_is_said_with_the_keys() -> None:
     found = fit_drive(wheeled_log(1.2, 0.2, 0.1, standard_commands(1.0, 1.5, 0.05)))
     assert found.accels_are_shared

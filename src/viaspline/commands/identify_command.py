@@ -17,27 +17,46 @@ if TYPE_CHECKING:
 BAGS = (".mcap", ".db3")
 ABOVE_0 = click.FloatRange(min=0.0, max=1e4, min_open=True)
 
+TRACK_M = 0.5
+"""Between the wheels of a robot of which nothing else is said [m]."""
+
 
 @click.command()
 @click.argument("log", type=click.Path(path_type=Path), required=False)
 @click.option(
     "--out", type=click.Path(path_type=Path), metavar="FILE", help="Write the keys there."
 )
-@click.option("--track", type=ABOVE_0, default=0.5, show_default=True, metavar="METRES",
-              help="Distance between the wheels, which no log shows.")  # fmt: skip
+@click.option(
+    "--track",
+    type=ABOVE_0,
+    metavar="METRES",
+    help=f"Distance between the wheels, which no log shows.  [default: {TRACK_M:g}]",
+)
+@click.option(
+    "--wheelbase",
+    type=ABOVE_0,
+    metavar="METRES",
+    help="Of a robot whose front wheels steer: from the rear axle to the front.",
+)
 @click.option("--drive", "drive", type=click.Path(path_type=Path), metavar="OUT",
               help="Write the commands of a drive that shows enough, and stop.")  # fmt: skip
 @click.option("--max-speed", type=ABOVE_0, metavar="MPS", help="Of those.  [default: 1]")
 @click.option("--max-yaw-rate", type=ABOVE_0, metavar="RADPS", help="Of those.  [default: 0.8]")
+@click.option(
+    "--turn-radius",
+    type=ABOVE_0,
+    metavar="METRES",
+    help="The tightest circle of a robot that steers; none of those is tighter.",
+)
 @click.option("--period", type=ABOVE_0, metavar="SECONDS", help="Of those.  [default: 0.05]")
 @click.option("--on", "mission", type=click.Path(path_type=Path), metavar="MISSION",
               help="Drive them on a mission's simulated robot; OUT is the log.")  # fmt: skip
 @click.option("--seed", type=click.IntRange(min=0), metavar="N",
               help="Of its noise.  [default: 0]")  # fmt: skip
 def identify(
-    log: Path | None, out: Path | None, track: float, drive: Path | None,
-    max_speed: float | None, max_yaw_rate: float | None, period: float | None,
-    mission: Path | None, seed: int | None,
+    log: Path | None, out: Path | None, track: float | None, wheelbase: float | None,
+    drive: Path | None, max_speed: float | None, max_yaw_rate: float | None,
+    turn_radius: float | None, period: float | None, mission: Path | None, seed: int | None,
 ) -> None:  # fmt: skip
     """Fit delay, lag, limits, noise and slip of a robot's drive to a log of it.
 
@@ -51,26 +70,33 @@ def identify(
       viaspline identify --drive commands.csv --max-speed 1.5     what the robot is to drive
       viaspline identify drive.csv --track 0.42                   what its log shows
       viaspline identify drive.mcap --track 0.42
+      viaspline identify --drive commands.csv --max-speed 2 --turn-radius 3.5    of a car
+      viaspline identify drive.csv --wheelbase 1.2
       viaspline identify --drive log.csv --on examples/depot-cart.yaml    in simulation
     """  # noqa: D301  (click looks for the character, not for a backslash)
     if drive is not None:
-        if log is not None or out is not None:
+        if any(value is not None for value in (log, out, track, wheelbase)):
             raise click.UsageError("give LOG to fit it, or --drive to write commands, not both")
-        _write_commands(drive, max_speed or 1.0, max_yaw_rate or 0.8, period or 0.05, mission, seed)
+        _write_commands(
+            drive, max_speed or 1.0, max_yaw_rate or 0.8, turn_radius, period or 0.05, mission, seed
+        )
         return
-    asked = (max_speed, max_yaw_rate, period, mission, seed)
+    asked = (max_speed, max_yaw_rate, turn_radius, period, mission, seed)
     if any(value is not None for value in asked):
         raise click.UsageError(
-            "--max-speed, --max-yaw-rate, --period, --on and --seed go with --drive"
+            "--max-speed, --max-yaw-rate, --turn-radius, --period, --on and --seed go with --drive"
         )
+    if track is not None and wheelbase is not None:
+        raise click.UsageError("give --wheelbase for a robot that steers, or --track, not both")
     if log is None:
         raise click.UsageError("give the LOG of a drive, or --drive OUT for one that shows enough")
     from viaspline.formats.whole_file import write_whole
     from viaspline.identify.fit_drive import fit_drive
     from viaspline.identify.identified_drive import drive_block
 
-    found = fit_drive(_read(log))
-    block = f"# fitted to {found.seconds:.0f} s of {log.name}\n{drive_block(found, track)}"
+    found = fit_drive(_read(log), wheelbase=wheelbase or 0.0)
+    keys = drive_block(found, TRACK_M if track is None else track)
+    block = f"# fitted to {found.seconds:.0f} s of {log.name}\n{keys}"
     if out is None:
         say(block.rstrip("\n"))
     else:
@@ -92,19 +118,22 @@ def _read(log: Path) -> DriveLog:
 
 
 def _write_commands(
-    out: Path, max_speed: float, max_yaw_rate: float, period: float, mission: Path | None,
-    seed: int | None,
+    out: Path, max_speed: float, max_yaw_rate: float, turn_radius: float | None, period: float,
+    mission: Path | None, seed: int | None,
 ) -> None:  # fmt: skip
     from viaspline.formats.whole_file import write_whole
     from viaspline.identify.standard_drive import commands_csv, room_of, standard_commands
 
-    commands = standard_commands(max_speed, max_yaw_rate, period)
+    robot = None if mission is None else _robot_of(mission)
+    if turn_radius is None:
+        turn_radius = 0.0 if robot is None else robot.turn_radius or 0.0
+    commands = standard_commands(max_speed, max_yaw_rate, period, turn_radius)
     seconds = f"{commands[-1, 0] + period:.0f} s at up to {max_speed:g} m/s"
-    if mission is not None:
+    if robot is not None:
         from viaspline.identify.drive_log import drive_csv
         from viaspline.identify.simulated_log import simulated_log
 
-        simulated = simulated_log(_robot_of(mission), commands, seed or 0)
+        simulated = simulated_log(robot, commands, seed or 0)
         write_whole(out, drive_csv(simulated))
         say(f"wrote {out}: the log of {seconds}, simulated")
         return

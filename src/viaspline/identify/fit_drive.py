@@ -22,14 +22,15 @@ from viaspline.identify.fit_problem import (
     PARAMETERS,
     SPEED_SHARE,
     TOP,
+    TURN_MOST,
+    TURN_SLOPE,
     WHEEL_ACCEL,
-    YAW_ACCEL,
     YAW_SHARE,
     FitProblem,
     fit_problem,
     has_wheels,
 )
-from viaspline.identify.identified_drive import Estimate, IdentifiedDrive
+from viaspline.identify.identified_drive import Estimate, IdentifiedDrive, IdentifiedSteering
 from viaspline.kernels.arrays import Floats
 
 BLOCK_S, RESAMPLES = 2.0, 200
@@ -40,18 +41,19 @@ SPREAD_MARGIN = 1.5
 limits are that the fit has to guess adds to it. So estimates are about one spread off."""
 
 
-def fit_drive(log: DriveLog, seed: int = 0) -> IdentifiedDrive:
+def fit_drive(log: DriveLog, seed: int = 0, wheelbase: float = 0.0) -> IdentifiedDrive:
     """What a log shows of its robot's drive.
 
     Args:
         log: Of a drive with changes of speed and of yaw rate.
         seed: Of the resamples.
+        wheelbase: Of a robot whose front wheels steer [m]; 0: its wheels don't.
 
     Raises:
         DriveLogError: When the log shows too little: the robot hardly moves or hardly turns, its
             commands never change, or nothing that it does follows from them.
     """
-    problem = fit_problem(log)
+    problem = fit_problem(log, wheelbase)
     p, free = fitted_parameters(problem)
     residual = problem.residuals(p)
     _check_fit(problem, residual)
@@ -118,10 +120,13 @@ def _identified(
     def limit(i: int) -> Estimate | None:
         return figure(i) if math.isfinite(p[i]) else None
 
-    accel, yaw_accel = limit(ACCEL), limit(YAW_ACCEL)
+    accel, turn_slope = limit(ACCEL), limit(TURN_SLOPE)
     if has_wheels(p):
         accel = figure(WHEEL_ACCEL)
-        yaw_accel = _quotient(accel, figure(ARM))
+        turn_slope = _quotient(accel, figure(ARM))
+    steering = None
+    if problem.wheelbase > 0.0:
+        steering = _steering(problem, p, limit(TURN_MOST), turn_slope)
     along, turned = noises
     fastest, fastest_turn = (float(np.abs(one).max()) for one in problem.motion(p))
     return IdentifiedDrive(
@@ -131,8 +136,9 @@ def _identified(
         yaw_share=figure(YAW_SHARE),
         top_speed=limit(TOP),
         accel=accel,
-        yaw_accel=yaw_accel,
+        yaw_accel=turn_slope if steering is None else None,
         accels_are_shared=has_wheels(p),
+        steering=steering,
         speed_noise=along.driven,
         yaw_noise=turned.driven,
         position_noise=along.measured,
@@ -141,6 +147,21 @@ def _identified(
         fastest_turn=fastest_turn,
         seconds=problem.log.seconds,
     )
+
+
+def _steering(
+    problem: FitProblem, p: Floats, most: Estimate | None, rate: Estimate | None
+) -> IdentifiedSteering:
+    """Angles as the robot turns by them: one that slips out of its turns steers less than told."""
+    share = float(p[YAW_SHARE])
+
+    def acting(angle: float) -> float:
+        return math.atan(share * math.tan(angle))
+
+    widest = acting(float(np.abs(problem.channels(p)[1]).max()))
+    if most is not None:
+        most = Estimate(acting(most.value), most.spread)
+    return IdentifiedSteering(problem.wheelbase, most, widest, rate)
 
 
 def _quotient(one: Estimate, other: Estimate) -> Estimate:

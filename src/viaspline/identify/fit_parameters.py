@@ -17,9 +17,10 @@ from viaspline.identify.fit_problem import (
     PARAMETERS,
     SPEED_SHARE,
     TOP,
+    TURN_MOST,
+    TURN_SLOPE,
     WHEEL_ACCEL,
     WINDOW_S,
-    YAW_ACCEL,
     YAW_SHARE,
     FitProblem,
 )
@@ -51,8 +52,10 @@ def fitted_parameters(problem: FitProblem) -> tuple[Floats, list[int]]:
 
     Both ways to limit changes are fitted: the speed's and the yaw rate's apart, and the wheels'.
     """
-    p, bounds = _unlimited(problem)
-    apart = _with_limits(problem, p, bounds, (ACCEL, YAW_ACCEL, TOP))
+    if problem.wheelbase > 0.0:
+        return _steered(problem)
+    p, bounds = _unlimited(problem, ALWAYS)
+    apart = _with_limits(problem, p, bounds, (ACCEL, TURN_SLOPE, TOP))
     wheels = [
         _with_limits(problem, tried, limits, (TOP,))
         for tried, limits in _on_wheels(problem, p, bounds)
@@ -62,7 +65,23 @@ def fitted_parameters(problem: FitProblem) -> tuple[Floats, list[int]]:
     return best if _is_better(problem, best[0], apart[0], more) else apart
 
 
-def _unlimited(problem: FitProblem) -> tuple[Floats, dict[int, tuple[float, float]]]:
+def _steered(problem: FitProblem) -> tuple[Floats, list[int]]:
+    """Those of a robot that steers.
+
+    Where it was told to turn more tightly than it can all the time, a lock explains what it did as
+    well as wheels that turn it by a share of what they should: then it is the lock.
+    """
+    limits = (ACCEL, TURN_SLOPE, TURN_MOST, TOP)
+    exact = {which: of for which, of in ALWAYS.items() if which != YAW_SHARE}
+    locked, shared = (
+        _with_limits(problem, *_unlimited(problem, bounds), limits) for bounds in (exact, ALWAYS)
+    )
+    return shared if _is_better(problem, shared[0], locked[0]) else locked
+
+
+def _unlimited(
+    problem: FitProblem, bounds: dict[int, tuple[float, float]]
+) -> tuple[Floats, dict[int, tuple[float, float]]]:
     """The parameters without any limits, and the bounds of each that is fitted."""
     p = np.full(PARAMETERS, np.inf)
     p[[SPEED_SHARE, YAW_SHARE]] = 1.0
@@ -72,7 +91,7 @@ def _unlimited(problem: FitProblem) -> tuple[Floats, dict[int, tuple[float, floa
         p[[DELAY, LAG]] = delay, lag
         costs.append(_cost(problem, p))
     p[[DELAY, LAG]] = grid[int(np.argmin(costs))]
-    return _solved(problem, p, ALWAYS), dict(ALWAYS)
+    return _solved(problem, p, bounds), bounds
 
 
 def _with_limits(
@@ -110,6 +129,8 @@ def _with_limit(
     for lag in sorted({float(p[LAG]), min(float(p[LAG]), SHORT_LAG_S)}):
         start = p.copy()
         start[[which, LAG]] = likely, lag
+        if which == TURN_MOST:  # without it the share was taken for less
+            start[YAW_SHARE] = 1.0
         tried = _solved(problem, start, {**bounds, which: (low, high)})
         if _is_better(problem, tried, p) and _is_active(problem, tried, which):
             found.append(tried)
@@ -159,11 +180,11 @@ def _solved(problem: FitProblem, start: Floats, bounds: dict[int, tuple[float, f
 
 def _likely(problem: FitProblem, p: Floats, which: int) -> tuple[float, float, float]:
     """The least, a likely and the greatest value of a limit that isn't known yet."""
-    speed, yaw = problem.motion(p)
-    if which == TOP:
-        top = float(np.abs(speed).max())
+    speed, turn = problem.channels(p)
+    if which in (TOP, TURN_MOST):
+        top = float(np.abs(speed if which == TOP else turn).max())
         return 0.2 * top, 0.9 * top, top
-    slope = float(np.abs(np.diff(speed if which == ACCEL else yaw)).max()) / problem.step
+    slope = float(np.abs(np.diff(speed if which == ACCEL else turn)).max()) / problem.step
     return 0.02 * slope, 0.4 * slope, slope
 
 
@@ -179,13 +200,13 @@ def _is_better(problem: FitProblem, one: Floats, other: Floats, more: int = 1) -
 
 
 def _is_active(problem: FitProblem, p: Floats, which: int) -> bool:
-    speed, yaw = problem.motion(p)
-    if which == TOP:
-        held_back = np.abs(speed) > 0.99 * p[TOP]
+    speed, turn = problem.channels(p)
+    if which in (TOP, TURN_MOST):
+        held_back = np.abs(speed if which == TOP else turn) > 0.99 * p[which]
     elif which == WHEEL_ACCEL:
-        most = np.abs(np.diff(speed)) + p[ARM] * np.abs(np.diff(yaw))
+        most = np.abs(np.diff(speed)) + p[ARM] * np.abs(np.diff(turn))
         held_back = most > 0.99 * p[WHEEL_ACCEL] * problem.step
     else:
-        one, slope = (speed, p[ACCEL]) if which == ACCEL else (yaw, p[YAW_ACCEL])
-        held_back = np.abs(np.diff(one)) > 0.99 * slope * problem.step
+        one = speed if which == ACCEL else turn
+        held_back = np.abs(np.diff(one)) > 0.99 * p[which] * problem.step
     return float(held_back.mean()) > ACTIVE_SHARE

@@ -13,26 +13,32 @@ import numpy as np
 from viaspline.identify.drive_log import DriveLog, DriveLogError
 from viaspline.identify.drive_response import (
     ChannelLimits,
-    WheelLimits,
     fine_times,
     held,
     response,
     summed,
-    wheel_response,
 )
+from viaspline.identify.steered_turn import angles_for, yaw_rates_of
+from viaspline.identify.wheel_response import WheelLimits, wheel_response
 from viaspline.kernels.arrays import Floats, Ints
 
 WINDOW_S = 0.5
 """What is driven in so long is compared [s]."""
 
+STOOD_SHARE = 0.1
+"""Of the greatest speed that is commanded: what is slower at first says nothing of its steering."""
+
 LEAST_DRIVEN = 0.2
 """Metres, and radians, that have to be driven at least."""
 
-DELAY, LAG, SPEED_SHARE, YAW_SHARE, TOP, ACCEL, YAW_ACCEL, WHEEL_ACCEL, ARM = range(9)
-"""The parameters of a drive: the first four always, the limits where a log shows them. Those of the
-speed and of the yaw rate are apart, or both are the wheels', which act an arm from the middle."""
+DELAY, LAG, SPEED_SHARE, YAW_SHARE = range(4)
+"""The parameters of a drive that every log shows."""
 
-PARAMETERS = 9
+TOP, ACCEL, TURN_MOST, TURN_SLOPE, WHEEL_ACCEL, ARM = range(4, 10)
+"""Its limits, where a log shows them: the greatest speed and its change, the greatest turn (a yaw
+rate, or a steering angle) and its change; or of wheels, which act an arm from the middle."""
+
+PARAMETERS = 10
 
 
 @dataclass(frozen=True)
@@ -43,12 +49,13 @@ class FitProblem:
         log: It.
         times: Fine ones [s].
         step: Between them [s].
-        told: Commanded speed and yaw rate at those.
-        first: Speed and yaw rate at first.
+        told: Commanded speed and turn at those.
+        first: Speed and turn at first.
         starts: Rows at which windows begin.
         ends: Rows at which they end.
         driven: Along and turned in each window.
         scale: By which both are divided.
+        wheelbase: Of a robot that steers, whose turn is a steering angle [m]; 0: it is a yaw rate.
     """
 
     log: DriveLog
@@ -60,11 +67,20 @@ class FitProblem:
     ends: Ints
     driven: tuple[Floats, Floats]
     scale: tuple[float, float]
+    wheelbase: float
 
     def motion(self, p: Floats) -> tuple[Floats, Floats]:
         """Speed and yaw rate without delay, fine."""
+        speed, turn = self.channels(p)
+        if self.wheelbase > 0.0:
+            turn = p[YAW_SHARE] * yaw_rates_of(speed, turn, self.wheelbase)
+        return speed, turn
+
+    def channels(self, p: Floats) -> tuple[Floats, Floats]:
+        """Speed and turn without delay, fine."""
         speed = ChannelLimits(float(p[SPEED_SHARE]), float(p[ACCEL]), float(p[TOP]))
-        yaw = ChannelLimits(float(p[YAW_SHARE]), float(p[YAW_ACCEL]))
+        share = 1.0 if self.wheelbase > 0.0 else float(p[YAW_SHARE])
+        yaw = ChannelLimits(share, float(p[TURN_SLOPE]), float(p[TURN_MOST]))
         lag = float(p[LAG])
         if has_wheels(p):
             wheels = WheelLimits(float(p[ARM]), float(p[WHEEL_ACCEL]))
@@ -79,8 +95,8 @@ class FitProblem:
         late = self.log.times - p[DELAY]
         before = np.minimum(late - self.times[0], 0.0)  # as it was at first
         along, turned = (
-            np.interp(late, self.times, summed(one, self.step)) + before * first
-            for one, first in zip(self.motion(p), self.first, strict=True)
+            np.interp(late, self.times, summed(one, self.step)) + before * one[0]
+            for one in self.motion(p)
         )
         return along, turned
 
@@ -98,8 +114,12 @@ def has_wheels(p: Floats) -> bool:
     return math.isfinite(p[WHEEL_ACCEL])
 
 
-def fit_problem(log: DriveLog) -> FitProblem:
+def fit_problem(log: DriveLog, wheelbase: float) -> FitProblem:
     """A log, prepared.
+
+    Args:
+        log: Of a drive.
+        wheelbase: Of a robot that steers [m], else 0.
 
     Raises:
         DriveLogError: When the robot hardly moves or hardly turns, or its commands never change.
@@ -119,12 +139,17 @@ def fit_problem(log: DriveLog) -> FitProblem:
     ends = np.searchsorted(log.times, log.times[starts] + WINDOW_S - 1e-9)
     driven = tuple(one[ends] - one[starts] for one in (along, turned))
     soon = int(np.searchsorted(log.times, log.times[0] + 0.15))
-    first = tuple(
-        float((one[soon] - one[0]) / (log.times[soon] - log.times[0])) for one in (along, turned)
-    )
+    begun = log.times[soon] - log.times[0]
+    first = np.array([(one[soon] - one[0]) / begun for one in (along, turned)])
     scale = tuple(float(np.sqrt(np.mean(one**2))) + 1e-9 for one in driven)
+    turns = log.yaw_rates
+    if wheelbase > 0.0:
+        turns = angles_for(log.speeds, turns, wheelbase)
+        moved = abs(first[0]) > STOOD_SHARE * np.abs(log.speeds).max()
+        first[1] = angles_for(first[:1], first[1:], wheelbase)[0] if moved else 0.0
     return FitProblem(
         log, times, float(times[1] - times[0]),
-        (held(log, log.speeds, times), held(log, log.yaw_rates, times)),
-        (first[0], first[1]), starts, ends, (driven[0], driven[1]), (scale[0], scale[1]),
+        (held(log, log.speeds, times), held(log, turns, times)),
+        (float(first[0]), float(first[1])), starts, ends, (driven[0], driven[1]),
+        (scale[0], scale[1]), wheelbase,
     )  # fmt: skip

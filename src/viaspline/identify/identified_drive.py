@@ -34,6 +34,22 @@ class Estimate(NamedTuple):
         return f"{self.figure} ± {self.spread:.2g}"
 
 
+class IdentifiedSteering(NamedTuple):
+    """What a log shows of front wheels that steer.
+
+    Attributes:
+        wheelbase: As it was told [m].
+        most: The greatest angle [rad]. None: the log doesn't show that there is one.
+        widest: The greatest angle in the log [rad].
+        rate: The greatest change of the angle [rad/s]. None: the log doesn't show that limit.
+    """
+
+    wheelbase: float
+    most: Estimate | None
+    widest: float
+    rate: Estimate | None
+
+
 @dataclass(frozen=True)
 class IdentifiedDrive:
     """What a log shows of a drive. None: it doesn't show that limit.
@@ -48,6 +64,7 @@ class IdentifiedDrive:
         yaw_accel: The greatest change of the yaw rate [rad/s²].
         accels_are_shared: Both changes come from the motors of two wheels: while one is at its
             greatest there is nothing of the other.
+        steering: That of a robot whose front wheels steer.
         speed_noise: Of the speed that is driven [m/s], standard deviation.
         yaw_noise: Of the yaw rate that is driven [rad/s].
         position_noise: Of a measured coordinate [m].
@@ -65,6 +82,7 @@ class IdentifiedDrive:
     accel: Estimate | None
     yaw_accel: Estimate | None
     accels_are_shared: bool
+    steering: IdentifiedSteering | None
     speed_noise: Estimate
     yaw_noise: Estimate
     position_noise: Estimate
@@ -83,7 +101,7 @@ def drive_block(drive: IdentifiedDrive, track: float) -> str:
 
     Args:
         drive: What the log shows.
-        track: Distance between the wheels, which no log shows [m].
+        track: Distance between the wheels of a robot that doesn't steer, which no log shows [m].
     """
     deg = math.degrees
     lines = ["robot:"]
@@ -95,22 +113,19 @@ def drive_block(drive: IdentifiedDrive, track: float) -> str:
         half = _scaled(drive.accel, 1.0 / ACCEL_RESERVE)
         words = f"{drive.accel} m/s² at most, of which control needs a half"
         lines.append(_line("  max_accel_mps2", half, words))
-    turn = deg(drive.fastest_turn) / YAW_RESERVE
-    words = "no greater one was driven; with a fifth left for control"
-    lines.append(f"  max_yaw_rate_degps: {turn:.3g}  # {words}")
+    if drive.steering is None:
+        turn = deg(drive.fastest_turn) / YAW_RESERVE
+        words = "no greater one was driven; with a fifth left for control"
+        lines.append(f"  max_yaw_rate_degps: {turn:.3g}  # {words}")
     if drive.yaw_accel is not None:
         kept, words = YAW_RESERVE, "with a fifth left for control"
         if drive.accels_are_shared:
             kept, words = ACCEL_RESERVE, "a half: the other half of its wheels' is the speed's"
         most = _scaled(drive.yaw_accel, deg(1.0) / kept)
         lines.append(_line("  max_yaw_accel_degps2", most, words))
-    slip = 1.0 - drive.yaw_share.value
-    kind = f"differential: {{track_m: {track:g}}}"
-    if slip > max(SLIPS_FROM, 2.0 * drive.yaw_share.spread):
-        kind = f"skid_steer: {{track_m: {track:g}, slip: {min(slip, 0.99):.3g}}}"
     lines += [
         "  drive:",
-        f"    {kind}  # the distance between its wheels: measure it",
+        *(_wheels(drive, track) if drive.steering is None else _steering(drive.steering)),
         _line("    delay_s", drive.delay),
         _line("    lag_s", drive.lag),
         _noise("    speed_noise_mps", drive.speed_noise),
@@ -124,6 +139,31 @@ def drive_block(drive: IdentifiedDrive, track: float) -> str:
             more = f"give it {1.0 / share.value:.3g} times as much"
             lines.append(f"# it {what} {share} of what it is told: {more}")
     return "\n".join(lines) + "\n"
+
+
+def _wheels(drive: IdentifiedDrive, track: float) -> list[str]:
+    slip = 1.0 - drive.yaw_share.value
+    kind = f"differential: {{track_m: {track:g}}}"
+    if slip > max(SLIPS_FROM, 2.0 * drive.yaw_share.spread):
+        kind = f"skid_steer: {{track_m: {track:g}, slip: {min(slip, 0.99):.3g}}}"
+    return [f"    {kind}  # the distance between its wheels: measure it"]
+
+
+def _steering(steering: IdentifiedSteering) -> list[str]:
+    lines = [
+        "    ackermann:",
+        f"      wheelbase_m: {steering.wheelbase:g}  # from the rear axle to the front: measure it",
+    ]
+    if steering.most is None:
+        words = "no greater one was driven"
+        lines.append(f"      max_steer_deg: {math.degrees(steering.widest):.3g}  # {words}")
+    else:
+        most = _scaled(steering.most, math.degrees(1.0))
+        lines.append(_line("      max_steer_deg", most, "no command makes it steer farther"))
+    if steering.rate is not None:
+        rate = _scaled(steering.rate, math.degrees(1.0))
+        lines.append(_line("      max_steer_rate_degps", rate))
+    return lines
 
 
 def _line(key: str, figure: Estimate, words: str = "") -> str:

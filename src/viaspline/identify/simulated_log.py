@@ -8,6 +8,7 @@ import numpy as np
 
 from viaspline.identify.drive_log import DriveLog
 from viaspline.identify.standard_drive import as_log
+from viaspline.identify.steered_turn import angles_for
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.drive_motion import (
     HEADING,
@@ -21,9 +22,6 @@ from viaspline.kernels.tracking.drive_motion import (
 from viaspline.machine.drive_noise import DriveNoise
 from viaspline.machine.robot_model import drive_model_of
 from viaspline.mission.robot_parts import RobotSpec
-
-LEAST_STEERING_MPS = 1e-3
-"""A robot that is slower doesn't steer [m/s]."""
 
 
 def simulated_log(robot: RobotSpec, commands: Floats, seed: int = 0) -> DriveLog:
@@ -48,10 +46,7 @@ def simulated_log(robot: RobotSpec, commands: Floats, seed: int = 0) -> DriveLog
     turn = commands[:, 2]
     wheelbase = model.actuators.wheelbase
     if wheelbase > 0.0:
-        speeds = np.maximum(np.abs(commands[:, 1]), LEAST_STEERING_MPS)
-        turn = np.where(
-            np.abs(commands[:, 1]) > LEAST_STEERING_MPS, np.arctan(wheelbase * turn / speeds), 0.0
-        )
+        turn = angles_for(commands[:, 1], turn, wheelbase)
     given = np.column_stack((commands[:, 0], commands[:, 1], np.zeros(count), turn))
     state = np.zeros(STATE)
     state[HEADING] = 0.0

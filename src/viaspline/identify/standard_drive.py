@@ -28,13 +28,16 @@ SHORTEST_PERIOD_S = 1e-3
 LONGEST_PERIOD_S = 0.2  # each piece has two commands at least
 
 
-def standard_commands(max_speed: float, max_yaw_rate: float, period: float) -> Floats:
+def standard_commands(
+    max_speed: float, max_yaw_rate: float, period: float, turn_radius: float = 0.0
+) -> Floats:
     """When to give which command: time [s], speed [m/s] and yaw rate [rad/s], shape (n, 3).
 
     Args:
         max_speed: The greatest speed [m/s].
         max_yaw_rate: The greatest yaw rate [rad/s].
         period: From command to command [s].
+        turn_radius: Of the tightest circle of a robot that steers [m]; 0: it turns on the spot.
 
     Raises:
         GeometryError: When one of them is not above 0, or the period not from 1 ms to 0.2 s.
@@ -55,7 +58,9 @@ def standard_commands(max_speed: float, max_yaw_rate: float, period: float) -> F
     times = period * np.arange(math.floor(float(ends[-1]) / period + 1e-9))
     which = np.searchsorted(ends, times + 1e-9, side="right")
     shares = np.array([(a, b) for _, a, b in PIECES])[np.minimum(which, len(PIECES) - 1)]
-    return np.column_stack((times, speed * shares[:, 0], rate * shares[:, 1]))
+    speeds = speed * shares[:, 0]
+    greatest = np.minimum(rate, speeds / turn_radius) if turn_radius > 0.0 else rate
+    return np.column_stack((times, speeds, greatest * shares[:, 1]))
 
 
 def room_of(commands: Floats) -> tuple[float, float, float, float]:
