@@ -7,6 +7,10 @@ from click.testing import CliRunner, Result
 
 import viaspline as vs
 from viaspline.cli import cli
+from viaspline.formats.mission_format import Whereabouts
+from viaspline.formats.mission_yaml import write_yaml
+from viaspline.formats.qgc_plan import QgcPlan
+from viaspline.formats.qgc_wpl import QgcWpl
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -107,3 +111,74 @@ def test_examples_in_a_help_keep_their_lines(command: str) -> None:
     shown = CliRunner().invoke(cli, [*command.split(), "--help"]).output
     assert "\\b" not in shown
     assert any(line.strip().startswith("viaspline ") for line in shown.splitlines())
+
+
+GEOGRAPHIC = ("plan", "waypoints", "geojson", "kml", "gpx", "csv")
+
+
+@pytest.fixture(scope="module")
+def placed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """A mission of each kind of file that says where on earth it lies, in one folder each."""
+    root = tmp_path_factory.mktemp("placed")
+    files = {}
+    route = {"start": [0, 0], "via": [[20, 4]], "goal": [40, 0]}
+    known = [{"circle": {"center": [12, 2], "radius": 2}}]
+    world = {"known": known, "origin_deg": [47.3977, 8.5456]}
+    mission = vs.Mission.model_validate({"world": world, "route": route})
+    write_yaml(mission, root / "of-yaml.yaml")
+    files["yaml"] = root / "of-yaml.yaml"
+    for kind in (QgcPlan(), QgcWpl()):
+        file = root / f"of-{kind.saved_endings[0][1:]}{kind.saved_endings[0]}"
+        file.write_text(kind.write(mission, Whereabouts()).text)
+        files[kind.saved_endings[0][1:]] = file
+    beside = root / "of-studio.yaml"
+    write_yaml(vs.Mission.model_validate({"world": {"known": known}, "route": route}), beside)
+    (root / "of-studio.yaml.studio.json").write_text('{"origin": [47.3977, 8.5456]}')
+    files["studio"] = beside
+    flight = {"start": [0, 0], "takeoff": {"to_agl_m": 8}, "goal": [40, 0, 410]}
+    flown = {"world": {**world, "ground": {"flat_m": 400}}, "route": flight}
+    write_yaml(vs.Mission.model_validate(flown), root / "of-flight.yaml")
+    files["flight"] = root / "of-flight.yaml"
+    return files
+
+
+@pytest.mark.parametrize("source", ["yaml", "plan", "waypoints", "studio", "flight"])
+def test_a_saved_plan_is_exported_where_on_earth_its_mission_lies(
+    source: str, placed: dict[str, Path], tmp_path: Path
+) -> None:
+    mission, saved = placed[source], tmp_path / "saved"
+    done = CliRunner().invoke(cli, ["plan", str(mission), "--out", str(saved), "-q"])
+    assert done.exit_code == 0, done.output
+    loaded = vs.load_plan(saved)
+    for ending in GEOGRAPHIC:
+        of_mission, of_folder = tmp_path / f"m/way.{ending}", tmp_path / f"f/way.{ending}"
+        for given, out in ((mission, of_mission), (saved, of_folder)):
+            result = call(given, out, "-q")
+            assert result.exit_code == 0, result.output
+        assert of_mission.read_bytes() == of_folder.read_bytes()
+        loaded.save(tmp_path / f"way.{ending}")
+        assert (tmp_path / f"way.{ending}").read_bytes() == of_folder.read_bytes()
+    again = vs.origin_of(tmp_path / "way.plan")
+    assert again == pytest.approx(loaded.mission.world.origin_deg, abs=1e-9)
+
+
+def test_a_fleet_that_was_saved_is_exported_where_it_lies(tmp_path: Path) -> None:
+    fleet = tmp_path / "fleet.yaml"
+    fleet.write_text("fleet:\n  - {name: a, route: {start: [0, 0], goal: [40, 0]}}\n")
+    (tmp_path / "fleet.yaml.studio.json").write_text('{"origin": [47.25, 8.5]}')
+    saved = tmp_path / "saved"
+    done = CliRunner().invoke(cli, ["plan", str(fleet), "--out", str(saved), "-q"])
+    assert done.exit_code == 0, done.output
+    assert call(saved, tmp_path / "way.kml", "-q").exit_code == 0
+    assert "8.5" in (tmp_path / "way-a.kml").read_text()
+
+
+def test_a_studio_file_that_can_not_be_read_stops_no_plan(tmp_path: Path) -> None:
+    mission = tmp_path / "yard.yaml"
+    mission.write_text("route: {start: [0, 0], goal: [9, 0]}\n")
+    (tmp_path / "yard.yaml.studio.json").write_text("{")
+    result = CliRunner().invoke(cli, ["plan", str(mission), "--out", str(tmp_path / "out")])
+    assert result.exit_code == 0, result.output
+    assert "it is passed over" in result.output
+    refused = call(tmp_path / "out", tmp_path / "way.kml")
+    assert "in metres without an origin" in " ".join(refused.output.split())

@@ -18,8 +18,8 @@ RING = "at least three points [[x, y], [x, y], [x, y]] in metres"
         ((), "a mapping with the keys world, robot, route, spline and ros"),
         (
             ("world",),
-            "a mapping with the keys bounds, fences, known, unseen, speed_zones, altitude and "
-            "ground",
+            "a mapping with the keys bounds, fences, known, unseen, speed_zones, altitude, "
+                "ground and origin_deg",
         ),
         (("world", "bounds", 2), "a number of metres"),
         (("world", "fences"), "a list of polygons, each " + RING),

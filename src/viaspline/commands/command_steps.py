@@ -50,6 +50,22 @@ def load_asked(path: Path) -> Mission | Fleet:
         patience.cancel()
 
 
+def load_placed(path: Path) -> Mission | Fleet:
+    """Read a mission or a fleet, which lies where it says, or else as was set in the studio."""
+    from viaspline.errors import MissionError
+    from viaspline.formats.studio_origin import studio_origin
+
+    asked = load_asked(path)
+    if asked.world.origin_deg is not None:
+        return asked
+    try:
+        origin = studio_origin(path)
+    except MissionError as error:
+        say_error(f"{error}: it is passed over", prefix="note: ")
+        return asked
+    return asked if origin is None else asked.lying_at(origin)
+
+
 @contextmanager
 def result_folder(path: Path, names: Iterable[str]) -> Iterator[ResultFolder]:
     """The folder of the results, tried before the work and not left empty by a failure."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from viaspline.bounded_file import is_folder, is_there
-from viaspline.commands.command_steps import load_asked, progress_bar, result_folder
+from viaspline.commands.command_steps import load_placed, progress_bar, result_folder
 from viaspline.report.terminal_lines import say
 
 if TYPE_CHECKING:
@@ -71,12 +71,13 @@ def export_command(
 
     kind = path_format_of(out)  # what can't be is refused before the long work
     saved = _is_saved(mission)
-    asked = None if saved else load_asked(mission)
+    asked = None if saved else load_placed(mission)
     place = None if saved and origin is None else _origin_of(mission, origin, kind)
     note = None if saved or not kind.is_geographic else origin_note(mission, origin)
     options = ExportOptions(place, chord_error, acceptance, spacing)
     options = options.checked()
-    check_origin(kind, options, str(out))
+    if not saved:  # the mission of a saved plan may say it, and is read with the plan
+        check_origin(kind, options, str(out))
     with result_folder(out.parent, (out.name,)), progress_bar(quiet, asked) as watch:
         planned = _loaded(mission, watch) if asked is None else _planned(asked, watch)
         with watch.stage("export", "cutting and proving"):

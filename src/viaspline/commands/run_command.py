@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from viaspline.commands.command_steps import load_asked
+from viaspline.commands.command_steps import load_placed
 from viaspline.commands.common_options import MISSION, OUT, QUIET
 from viaspline.commands.fleet_options import (
     IMPROVE,
@@ -64,7 +64,7 @@ def run(
       viaspline run examples/fig8-patrol.yaml --out patrol --animate patrol/run.gif
     """
     check_workers(workers, scheduler)
-    asked = load_asked(mission)
+    asked = load_placed(mission)
     from viaspline.mission.model import Mission
 
     if isinstance(asked, Mission):

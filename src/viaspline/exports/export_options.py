@@ -11,6 +11,7 @@ from typing import Any
 from viaspline.errors import GeometryError
 from viaspline.formats.items import LatLon
 from viaspline.handed_in import number_from
+from viaspline.mission.model import Mission
 
 
 @dataclass(frozen=True)
@@ -18,7 +19,7 @@ class ExportOptions:
     """How a path is exported.
 
     Attributes:
-        origin: Latitude and longitude of the mission's 0, 0 [deg].
+        origin: Latitude and longitude of the mission's 0, 0 [deg]. None: as the mission says.
         chord_error: How far from the exact curve the lines may be [m]. None: a tenth of the
             clearance, 1 to 25 cm.
         acceptance: How near to a point a vehicle turns to the next one [m]. None: as much as can be
@@ -47,6 +48,11 @@ class ExportOptions:
             spacing=_length("spacing", self.spacing, 1e-3),
             origin=None if self.origin is None else _origin(self.origin),
         )
+
+    def placed(self, mission: Mission) -> ExportOptions:
+        """Them with the origin that a mission says, where they have none."""
+        said = mission.world.origin_deg
+        return self if self.origin is not None or said is None else replace(self, origin=said)
 
 
 def _length(name: str, value: Any, least: float) -> float | None:

@@ -62,8 +62,9 @@ def export(
     Args:
         plan: What was planned.
         path: The file; an old one is replaced.
-        origin: Latitude and longitude of the mission's 0, 0 [deg], for formats that have them;
-            ``viaspline.formats.load.origin_of`` tells those of a mission's file.
+        origin: Latitude and longitude of the mission's 0, 0 [deg], for formats that have them.
+            None: as ``world.origin_deg`` of the mission says, which files with latitudes and
+            longitudes bring along.
         chord_error: How far from the exact curve the lines may be, either way [m]. None: a tenth of
             the clearance, 1 to 25 cm.
         acceptance: For ``.plan`` and ``.waypoints``, how near to a point the vehicle turns to the

@@ -44,6 +44,7 @@ def rendered(
     Raises:
         OutputError: The format needs an origin, or no lines were found that are clear.
     """
+    options = options.placed(plan.mission)
     frame = _frame(kind, options, target, plan.path)
     lines, acceptance = cut_plan(plan, kind, options, target)
     points, geodetic = _as_written(lines.points, frame if kind.is_geographic else None)

@@ -10,12 +10,14 @@ from viaspline.errors import OutputError
 from viaspline.formats.mission_format import MissionFormat, Whereabouts, Written
 from viaspline.formats.named_files import relative, route_data, world_data
 from viaspline.formats.outermost_keys import outermost_keys
+from viaspline.formats.said_origin import said_origin
 from viaspline.formats.whole_file import write_whole
 from viaspline.formats.yaml_document import yaml_document
 from viaspline.formats.yaml_lines import flow, section
 from viaspline.mission.validation import Context
 
 if TYPE_CHECKING:
+    from viaspline.formats.items import LatLon
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.fleet.member_spec import MemberSpec
 
@@ -58,8 +60,9 @@ class FleetYaml(MissionFormat["Fleet"]):
         document = yaml_document(text, source)
         return Fleet.model_validate(document.data, context=Context(document))
 
-    def origin(self, text: str, source: str) -> None:
-        """Places are metres: where on earth they are isn't said."""
+    def origin(self, text: str, source: str) -> LatLon | None:
+        """Latitude and longitude of its 0, 0 [deg], if its world says them."""
+        return said_origin(yaml_document(text, source).data)
 
     def write(self, fleet: Fleet, where: Whereabouts) -> Written:
         """All of a fleet; what has its default value is left out."""

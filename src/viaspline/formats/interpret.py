@@ -102,6 +102,7 @@ def _mission(
             "fences": [_ring(frame, area) for area in fences],
             "known": [_obstacle(frame, area, i) for i, area in enumerate(obstacles, start=1)],
             **(more or {}),
+            "origin_deg": frame.geographic,
         },
         "robot": {} if itinerary.speed is None else {"max_speed_mps": itinerary.speed},
         "route": route,
@@ -120,8 +121,7 @@ def origin_in(itinerary: Itinerary) -> LatLon | None:
     stops, _ = stops_of(itinerary)
     if not stops:
         return None
-    frame = _frame(itinerary, stops)
-    return frame.latitude, frame.longitude
+    return _frame(itinerary, stops).geographic
 
 
 def _frame(itinerary: Itinerary, stops: Sequence[Stop]) -> LocalFrame:

@@ -76,7 +76,7 @@ def origin_of(path: str | Path) -> LatLon | None:
         path: The file.
 
     Returns:
-        None if the file has metres, or no position at all.
+        None if the file has metres and doesn't say so, or no position at all.
 
     Raises:
         MissionError: The file can't be read.

@@ -29,6 +29,15 @@ class LocalFrame:
     latitude: float
     longitude: float
 
+    @property
+    def geographic(self) -> tuple[float, float]:
+        """Latitude and longitude of the origin [deg], the latter from -180 to 180.
+
+        >>> LocalFrame(47.0, 352.0).geographic
+        (47.0, -8.0)
+        """
+        return self.latitude, self.longitude - 360.0 * round(self.longitude / 360.0)
+
     def to_local(self, latitude: Any, longitude: Any) -> Floats:
         """Metres east and north of the origin, shape (..., 2), for places on the ground.
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import ClassVar, Final
 
+from viaspline.formats.items import LatLon
 from viaspline.formats.mission_format import MissionFormat, Whereabouts, Written
 from viaspline.formats.named_files import route_data, world_data
+from viaspline.formats.said_origin import said_origin
 from viaspline.formats.whole_file import write_whole
 from viaspline.formats.yaml_document import yaml_document
 from viaspline.formats.yaml_lines import section
@@ -35,8 +37,9 @@ class MissionYaml(MissionFormat[Mission]):
         document = yaml_document(text, source)
         return Mission.model_validate(document.data, context=Context(document))
 
-    def origin(self, text: str, source: str) -> None:
-        """Places are metres: where on earth they are isn't said."""
+    def origin(self, text: str, source: str) -> LatLon | None:
+        """Latitude and longitude of its 0, 0 [deg], if its world says them."""
+        return said_origin(yaml_document(text, source).data)
 
     def write(self, mission: Mission, where: Whereabouts) -> Written:
         """All of a mission; what has its default value is left out."""

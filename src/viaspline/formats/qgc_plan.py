@@ -96,8 +96,8 @@ class QgcPlan(WaypointFormat):
 
         Args:
             mission: The mission.
-            where: With the latitude and longitude of its 0, 0; `viaspline.formats.load.origin_of`
-                tells those of a file.
+            where: With the latitude and longitude of its 0, 0, where they aren't those that the
+                mission says.
 
         Raises:
             OutputError: There is no origin, or the mission reaches too far from it.
@@ -107,7 +107,7 @@ class QgcPlan(WaypointFormat):
         >>> QgcPlan().origin(text, "x.plan"), lost
         ((47.0, 8.0), ())
         """
-        itinerary = itinerary_of(mission, where.origin)
+        itinerary = itinerary_of(mission, where.origin or mission.world.origin_deg)
         own: dict[str, Any] = {"origin": itinerary.origin, "heights": not itinerary.is_flat}
         if itinerary.ground is not None:
             data = {"ground": itinerary.ground}

@@ -92,8 +92,8 @@ class QgcWpl(WaypointFormat):
 
         Args:
             mission: The mission.
-            where: With the latitude and longitude of its 0, 0; `viaspline.formats.load.origin_of`
-                tells those of a file.
+            where: With the latitude and longitude of its 0, 0, where they aren't those that the
+                mission says.
 
         Raises:
             OutputError: There is no origin, or the mission reaches too far from it.
@@ -103,7 +103,7 @@ class QgcWpl(WaypointFormat):
         >>> print(text.splitlines()[-1].replace(chr(9), " "))
         2 0 3 16 0 0 0 0 46.9999999939 8.0011833386 0 1
         """
-        itinerary = itinerary_of(mission, where.origin)
+        itinerary = itinerary_of(mission, where.origin or mission.world.origin_deg)
         more: list[tuple[str, str]] = []
         if mission.robot.max_speed_mps != RobotSpec().max_speed_mps:
             more.append(("robot", "max_speed_mps"))

@@ -90,6 +90,13 @@ def _opened(ring: Corners) -> Corners:
     return ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring
 
 
+def _on_earth(place: tuple[float, float]) -> tuple[float, float]:
+    """Refuse what files have in which nobody has said where on earth they are."""
+    if place == (0.0, 0.0):
+        raise ValueError("[0, 0] means nowhere; give the latitude and longitude of the site")
+    return place
+
+
 def as_text(value: Any) -> Any:
     """Paths as texts."""
     return os.fspath(value) if isinstance(value, os.PathLike) else value
@@ -111,6 +118,17 @@ Point3: TypeAlias = Annotated[
     BeforeValidator(plain),
     Expects("[x, y, z] in metres"),
 ]
+LatLonDeg: TypeAlias = Annotated[
+    tuple[
+        Annotated[Number, DEGREES, Field(ge=-90, le=90)],
+        Annotated[Number, DEGREES, Field(ge=-180, le=180)],
+    ],
+    DEGREES,
+    BeforeValidator(plain),
+    AfterValidator(_on_earth),
+    Expects("[latitude, longitude] in degrees such as [47.1, 8.5]"),
+]
+"""A place on earth [deg]."""
 Heights: TypeAlias = Annotated[
     tuple[Coordinate, Coordinate],
     METRES,

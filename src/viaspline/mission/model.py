@@ -31,6 +31,15 @@ class Mission(ShownValue, MissionParts):
     (9.0, 0.0)
     """
 
+    def lying_at(self, origin: tuple[float, float]) -> Mission:
+        """It, with its 0, 0 somewhere on earth.
+
+        Args:
+            origin: Latitude and longitude [deg].
+        """
+        world = self.world.model_copy(update={"origin_deg": origin})
+        return self.model_copy(update={"world": world})
+
     @model_validator(mode="wrap")
     @classmethod
     def _sound(

@@ -14,7 +14,7 @@ from pydantic import BeforeValidator
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.annotations import Expects
-from viaspline.mission.fields import Coordinate, Name, Ring, Rings, Speed, plain
+from viaspline.mission.fields import Coordinate, LatLonDeg, Name, Ring, Rings, Speed, plain
 from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.space.altitude_spec import AltitudeSpec
@@ -114,6 +114,8 @@ class WorldSpec(Value):
         speed_zones: Areas with a lower speed; in space at every height.
         altitude: How low and how high the robot may fly. None: as it likes.
         ground: How high the ground is. None: there is no ground, and z = 0 is home.
+        origin_deg: Where on earth the 0, 0 is, ``[latitude, longitude]`` [deg]: for formats that
+            have these, such as QGroundControl's. None: nobody says.
     """
 
     bounds: Bounds4 | None = None
@@ -123,6 +125,7 @@ class WorldSpec(Value):
     speed_zones: SpeedZones = ()
     altitude: AltitudeSpec | None = None
     ground: GroundSpec | None = None
+    origin_deg: LatLonDeg | None = None
 
     @property
     def is_spatial(self) -> bool:

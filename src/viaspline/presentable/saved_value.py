@@ -33,6 +33,7 @@ class SavedValue:
             name: What the mission is called in them, as its file is on the command line. None: in
                 a folder "mission" or "fleet", in a single file as that is called.
             origin: Latitude and longitude of the mission's 0, 0 [deg], for files that have them.
+                None: as ``world.origin_deg`` of the mission says.
 
         Returns:
             What was written.

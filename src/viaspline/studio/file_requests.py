@@ -110,6 +110,7 @@ async def _save_waypoints(
         current.lies_at(origin)
         if not lost:
             current.saved_as(name)
+        document = current.document  # which may say where it lies
     return {**_saved(name, document, lost, current), "origin": origin}
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from viaspline.errors import Fault, MissionError
 from viaspline.formats.items import LatLon
+from viaspline.formats.said_origin import said_origin
 from viaspline.formats.yaml_document import read_document
 from viaspline.mission.model import Mission
 from viaspline.mission.unplaced_faults import located
@@ -67,6 +68,7 @@ def _opened(path: Path) -> LoadedDocument:
         if found.faults:  # a key that stands there twice would be lost on saving
             raise MissionError(located(list(found.faults), found.data, found))
         document: Document = found.data
+        origin = said_origin(document)
     else:
         document, notes, origin = _understood(path)
     try:

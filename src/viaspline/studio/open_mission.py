@@ -11,6 +11,7 @@ from pathlib import Path
 
 from viaspline.bounded_file import MISSION_FILE, read_bytes
 from viaspline.formats.items import LatLon
+from viaspline.formats.said_origin import KEY, said_origin
 from viaspline.studio.background.studio_settings import (
     StudioSettings,
     read_settings,
@@ -45,7 +46,9 @@ class OpenMission:
     @property
     def says_its_origin(self) -> bool:
         """Whether the file itself says where its 0, 0 is."""
-        return self.name is not None and not is_yaml(Path(self.name)) and self.origin is not None
+        if self.name is None or self.origin is None:
+            return False
+        return not is_yaml(Path(self.name)) or said_origin(self.document) is not None
 
     @property
     def base(self) -> Path:
@@ -89,6 +92,9 @@ class OpenMission:
         """
         if self.says_its_origin:
             self.origin = origin
+            if origin is not None and said_origin(self.document) is not None:
+                world = {**self.document["world"], KEY: list(origin)}
+                self.document = {**self.document, "world": world}
         else:
             self.remember(replace(self.settings, origin=origin))
 
@@ -100,7 +106,7 @@ class OpenMission:
         """
         before = self.base
         self.name, self.digest = name, _digest(self.folder.to_open(name))
-        kept = self.origin if is_yaml(Path(name)) else None
+        kept = None if self.says_its_origin else self.origin
         self.settings = replace(self.settings.moved(before, self.base), origin=kept)
         write_settings(self.folder, name, self.settings)
 

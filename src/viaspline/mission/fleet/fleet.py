@@ -98,6 +98,20 @@ class Fleet(ShownValue, FleetParts):
     ) -> Fleet:
         return sound_fleet(data, handler, info.context)
 
+    def lying_at(self, origin: tuple[float, float]) -> Fleet:
+        """It, with its 0, 0 and that of all its robots somewhere on earth.
+
+        Args:
+            origin: Latitude and longitude [deg].
+
+        >>> one = {"name": "r1", "route": {"start": [0, 0], "goal": [9, 0]}}
+        >>> placed = Fleet.model_validate({"fleet": [one]}).lying_at((47.1, 8.5))
+        >>> placed.members[0].mission.world.origin_deg
+        (47.1, 8.5)
+        """
+        world = self.world.model_copy(update={"origin_deg": origin})
+        return Fleet.model_construct(**{**dict(self), "world": world})
+
     @property
     def is_spatial(self) -> bool:
         """Whether anything in it says heights, a kind of robots or its world included.

@@ -73,7 +73,8 @@ def save(
             ``SINGLE_FILES`` it is a file, which the exports write.
         name: What the mission is called; None: ``MISSION`` or ``FLEET``, and in a single file what
             that is called. It isn't taken from the folder: the same plan gives the same bytes.
-        origin: Latitude and longitude of the mission's 0, 0 [deg], for files that have them.
+        origin: Latitude and longitude of the mission's 0, 0 [deg], for files that have them. None:
+            as the mission says.
 
     Returns:
         What was written.
