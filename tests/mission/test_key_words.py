@@ -19,7 +19,7 @@ RING = "at least three points [[x, y], [x, y], [x, y]] in metres"
         (
             ("world",),
             "a mapping with the keys bounds, fences, known, unseen, speed_zones, altitude, "
-                "ground and origin_deg",
+            "ground and origin_deg",
         ),
         (("world", "bounds", 2), "a number of metres"),
         (("world", "fences"), "a list of polygons, each " + RING),

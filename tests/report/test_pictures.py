@@ -22,7 +22,7 @@ from viaspline.report.canvas import new_figure, renderer_of
 from viaspline.report.driven_line import DrivenKey, draw_driven, sharpest_driven, speed_colours
 from viaspline.report.labels import Labels
 from viaspline.report.plan_picture import draw_losers, plan_picture, plan_scene, via_ticks
-from viaspline.report.profile_strips import mark_clipped, shown_range
+from viaspline.report.profile_strips import mark_clipped, shown_range, with_peaks
 from viaspline.report.run_picture import echoes, run_picture
 from viaspline.report.sheet import new_sheet
 from viaspline.robot.run import Run
@@ -221,6 +221,16 @@ def test_a_clipped_peak_is_marked_with_its_radius() -> None:
     assert [text.get_text() for text in axes.texts] == ["beyond: 50 1/m, radius 0.020 m"]
     mark_clipped(axes, distances, np.clip(curvature, -1, 1), 1.0)
     assert len(axes.texts) == 1
+
+
+def test_a_peak_between_the_values_that_are_drawn_is_drawn() -> None:
+    curvature = np.sin(np.linspace(0, 20, 10_000))
+    curvature[[5001, 7003]] = 40.0, -30.0
+    kept = with_peaks(curvature, 900)
+    assert len(kept) <= 901
+    assert (np.diff(kept) > 0).all()
+    assert {0, 5001, 7003, 9999} <= set(kept.tolist())
+    assert with_peaks(curvature[:900], 900).tolist() == list(range(900))
 
 
 def test_the_sharpest_place_of_a_run_is_that_of_its_exact_curve(driven: Run) -> None:

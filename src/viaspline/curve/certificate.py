@@ -16,12 +16,14 @@ from viaspline.errors import GeometryError
 from viaspline.handed_in import check_answers, number_from
 from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.clearance.world_protocol import dimension
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.world.outline import outline
 
 PROOF_TOLERANCE_M = 1e-3  # between the proven bound and the true clearance [m]
 PROOF_SLACK_M = 1e-6  # what a proof may lack of what is required: a curve that just touches it [m]
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class Certificate:
     """What is proven of a curve's clearance.

@@ -15,6 +15,7 @@ from viaspline.handed_in import check_answers, check_kind
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.space.ground_clearance import least_height
 from viaspline.kernels.space.packed_space import PackedSpace
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.world.space.spatial_world import SpatialWorld
 
 HEIGHT_TOLERANCE_M = 0.05  # between the proven height above ground and the true one [m]
@@ -39,6 +40,7 @@ class HeightBound:
     u: float
 
 
+@told_in_lines
 @dataclass(frozen=True, slots=True)
 class HeightCertificate:
     """What is proven of a curve's heights, as a whole.

@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 from viaspline.exports.path_format import Carried
 from viaspline.exports.path_table import PathTable
 from viaspline.report.json_text import dumps
+from viaspline.report.proven_reference import PROVEN_KEY
 
 
 class GeoJsonPath:
@@ -36,6 +37,7 @@ class GeoJsonPath:
             "clearance_m": proof.clearance,
             "required_clearance_m": proof.required,
             "chord_error_m": proof.chord_error,
+            **PROVEN_KEY,
             "distance_m": table.distances,
             "heading_rad": table.headings,
             "speed_mps": table.speeds,

@@ -10,6 +10,7 @@ from typing import ClassVar
 from viaspline.exports.path_format import Carried
 from viaspline.exports.path_table import PathTable
 from viaspline.report.json_text import dumps
+from viaspline.report.proven_reference import PROVEN_KEY
 
 
 class JsonPath:
@@ -38,6 +39,7 @@ class JsonPath:
                 "tightest_at": proof.at,
                 "nearest": proof.nearest,
                 "chord_error_m": proof.chord_error,
+                **PROVEN_KEY,
             },
             "not_carried": table.lost,
             "points": {

@@ -15,6 +15,7 @@ from viaspline.errors import OutputError
 from viaspline.exports.nav_path_yaml import FRAME
 from viaspline.exports.path_format import Carried
 from viaspline.exports.path_table import PathTable
+from viaspline.report.proven_reference import PROVEN_KEY
 from viaspline.ros_messages.message_book import standard_book
 from viaspline.ros_messages.pose_message import pose_stamped
 from viaspline.ros_messages.stamps import header
@@ -56,7 +57,7 @@ class NavPathMcap:
         poses = [pose_stamped(time, FRAME, at, heading) for time, at, heading in rows]
         data = book.encoded(MESSAGE, {"header": header(0.0, FRAME), "poses": poses})
         writer.add_message(channel, log_time=0, data=data, publish_time=0)
-        told = {"name": table.name, "proven": table.proof_words()}
+        told = {"name": table.name, "proven": table.proof_words(), **PROVEN_KEY}
         told |= {f"not carried {k}": words for k, words in enumerate(table.lost, start=1)}
         writer.add_metadata("viaspline", told)
         writer.finish()

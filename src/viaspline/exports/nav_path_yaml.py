@@ -10,6 +10,7 @@ from typing import ClassVar
 
 from viaspline.exports.path_format import Carried
 from viaspline.exports.path_table import DIGITS_M, PathTable
+from viaspline.report.proven_reference import PROVEN_WORDS
 
 FRAME = "map"
 
@@ -31,7 +32,7 @@ class NavPathYaml:
 
     def write(self, table: PathTable) -> bytes:
         """The file of a path."""
-        lines = [f"# {table.name}: {table.proof_words()}".replace("\n", " ")]
+        lines = [f"# {table.name}: {table.proof_words()}; {PROVEN_WORDS}".replace("\n", " ")]
         lines += [f"# not carried: {words}" for words in table.lost]
         lines += ["header:", *_header("  ", 0.0), "poses:"]
         for at, heading, time in zip(

@@ -13,6 +13,7 @@ from viaspline.exports.clear_polyline import EXPORT_SLACK_M
 from viaspline.formats.items import LatLon
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
+from viaspline.report.proven_reference import PROVEN_WORDS
 from viaspline.report.units import down
 
 DIGITS_DEG = 10
@@ -118,7 +119,8 @@ class PathTable:
     def remarks(self) -> list[str]:
         """What is proven, what isn't carried, and what has to be known, in lines."""
         lost = (f"not carried: {words}" for words in self.lost)
-        return [self.proof_words(), *lost, *(f"note: {words}" for words in self.notes)]
+        notes = (f"note: {words}" for words in self.notes)
+        return [self.proof_words(), PROVEN_WORDS, *lost, *notes]
 
     def proof_words(self) -> str:
         """What is proven, in a sentence."""

@@ -10,9 +10,11 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.handed_in import number_from
 from viaspline.kernels.fleet.fleet_proof import fleet_tightest
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.space.meeting.spatial_separation import nearest_in_space
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class FleetCertificate:
     """What is proven of the distance between the robots of a fleet.

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from viaspline.presentable.told_in_lines import told_in_lines
+
 
 @dataclass(frozen=True)
 class PathPlace:
@@ -71,6 +73,7 @@ class Roughness:
     place: PathPlace | None
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class Drivability:
     """How a path drives with its time law.

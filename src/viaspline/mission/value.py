@@ -15,7 +15,7 @@ from pydantic_core import PydanticCustomError
 
 from viaspline.mission.key_rules import KeyRules, describe_keys
 from viaspline.presentable.compared_by_value import hashed
-from viaspline.presentable.short_repr import ShortText, short
+from viaspline.presentable.short_repr import ShortText, in_lines, short
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -54,6 +54,11 @@ class Value(BaseModel):
             value = getattr(self, name)
             if field.is_required() or value != field.default:
                 yield name, short(value)
+
+    def __repr__(self) -> str:
+        return in_lines(type(self).__name__, list(self.__repr_args__()))
+
+    __str__ = __repr__
 
     @classmethod
     def __get_pydantic_json_schema__(

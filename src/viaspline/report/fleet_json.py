@@ -12,6 +12,7 @@ from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.report.json_text import dumps
+from viaspline.report.proven_reference import PROVEN_KEY
 
 FRAME: Final = "ENU: x east, y north; headings anticlockwise from x"
 SPATIAL_FRAME: Final = "ENU: x east, y north, z up; headings anticlockwise from x"
@@ -33,6 +34,7 @@ def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
                 "robots": len(plan.fleet.members),
                 "separation_m": plan.fleet.separation_m,
             },
+            **PROVEN_KEY,
             "served": plan.served,
             "robots": [_robot(plan, one, folders) for one in plan.fleet.members],
             "certificate": certificate_of_fleet(plan.certificate),

@@ -8,6 +8,7 @@ from __future__ import annotations
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.report.fleet_json import certificate_of_fleet
 from viaspline.report.json_text import dumps
+from viaspline.report.proven_reference import PROVEN_KEY
 
 
 def fleet_run_json(run: FleetRun, name: str, *, seed: int = 0) -> str:
@@ -21,6 +22,7 @@ def fleet_run_json(run: FleetRun, name: str, *, seed: int = 0) -> str:
     return dumps(
         {
             "fleet": {"name": name, "seed": seed},
+            **PROVEN_KEY,
             "reached": run.reached,
             "duration_s": run.end_s,
             "mean_delay_s": run.mean_delay,

@@ -14,6 +14,7 @@ from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.report.drivability_json import drivability_data
 from viaspline.report.json_text import dumps
 from viaspline.report.moving_json import moving_certificate_data, timing_choices, waits_data
+from viaspline.report.proven_reference import PROVEN_KEY
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.report.summary import tension
 from viaspline.trajectory.trajectory import Trajectory
@@ -30,6 +31,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
     return dumps(
         {
             "mission": mission_summary(plan.mission, name),
+            **PROVEN_KEY,
             "path": path_data(plan.path) | _turning(plan) | {"csv_spacing_m": spacing},
             "certificate": certificate_data(plan.certificate)
             | moving_certificate_data(plan.moving_certificate),

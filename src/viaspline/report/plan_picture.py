@@ -46,6 +46,7 @@ from viaspline.report.units import asked_words, down, metres, seconds
 from viaspline.report.via_marks import draw_plain_vias, draw_vias
 from viaspline.world.moving_obstacles import MovingObstacles
 
+PER_SPAN = 24  # places of a span at which its curvature is drawn
 MAX_REASONS = 3  # why a path drives roughly, before the rest is only counted
 NOTE_WIDTH = 44  # letters of a line of the column at the right
 MAX_GROUPS_MEASURED = 6  # groups; the lengths of their ways are on the picture if they are no more
@@ -258,10 +259,13 @@ def _fill_strips(sheet: Sheet, plan: Plan) -> None:
     path, trajectory = plan.path, plan.trajectory
     joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
     even = np.linspace(0, path.length, 1500)
+    within = min(PER_SPAN, max(20_000 // len(path.spans), 1))  # where a short span may be sharp
+    inside = np.linspace(*path.domain, within * len(path.spans) + 1)
     near = np.concatenate(
         [trajectory.distances, joints, np.maximum(joints - 1e-7 * path.length, 0)]
     )
-    distances = np.unique(np.concatenate([even, near[:20_000]]))
+    inner = np.asarray(path.distance(inside))
+    distances = np.unique(np.concatenate([even, inner, near[:20_000]]))
     u = np.asarray(path.parameter(distances))
     values = [np.asarray(trajectory.speed_at(distances)), np.asarray(path.curvature(u))]
     if len(sheet.strips) == 3:

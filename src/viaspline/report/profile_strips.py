@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
 from viaspline.report.style import INK, MUTED, OBSTACLE, SMALL_PT, TEXT_PT, TIGHTEST
@@ -57,6 +58,30 @@ def fill_strips(
             axes.axhline(0, color=MUTED, linewidth=0.5)
     strips[-1].set_xlabel("distance along the path [m]", size=TEXT_PT, color=MUTED, labelpad=2)
     _number(strips[0], ticks, last)
+
+
+def with_peaks(values: Floats, most: int) -> NDArray[np.intp]:
+    """Which of many values are drawn: those evenly apart, and the least and largest between these.
+
+    Args:
+        values: Along the path, shape (n,).
+        most: About how many are drawn.
+
+    Returns:
+        Their indices, increasing; all of them if they are no more than ``most``.
+
+    >>> values = np.zeros(1000)
+    >>> values[501] = 7.0
+    >>> kept = with_peaks(values, 30)
+    >>> len(kept) <= 30, float(values[kept].max())
+    (True, 7.0)
+    """
+    if len(values) <= most:
+        return np.arange(len(values))
+    starts = np.linspace(0, len(values), most // 3, endpoint=False).round().astype(np.intp)
+    pieces = np.split(values, starts[1:])
+    least, largest = ([int(find(piece)) for piece in pieces] for find in (np.argmin, np.argmax))
+    return np.unique(np.concatenate([starts, starts + least, starts + largest, [len(values) - 1]]))
 
 
 def _apart(ticks: Ticks, axes: Axes, last: float) -> Ticks:

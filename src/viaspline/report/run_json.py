@@ -15,6 +15,7 @@ from viaspline.machine.excess import Excess
 from viaspline.report.json_text import dumps
 from viaspline.report.moving_json import encounters_data
 from viaspline.report.plan_json import mission_summary, path_data
+from viaspline.report.proven_reference import PROVEN_KEY
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.robot.run import Replan, Run, Shortfall
 
@@ -25,6 +26,7 @@ def run_json(run: Run, name: str, *, seed: int = 0) -> str:
     return dumps(
         {
             "mission": {**mission_summary(run.plan.mission, name), "seed": seed},
+            **PROVEN_KEY,
             "reached": run.reached,
             "reason": run.reason,
             "duration_s": run.duration,

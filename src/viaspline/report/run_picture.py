@@ -24,7 +24,7 @@ from viaspline.report.labels import Labels
 from viaspline.report.moving_marks import Moment, draw_moving
 from viaspline.report.path_marks import draw_arrows, draw_echoes, draw_tightest, mark_sharpest
 from viaspline.report.plan_picture import proof, subtitle, via_ticks
-from viaspline.report.profile_strips import fill_strips, mark_clipped, strip_names
+from viaspline.report.profile_strips import fill_strips, mark_clipped, strip_names, with_peaks
 from viaspline.report.replan_marks import draw_replans
 from viaspline.report.scene import Scene, nearest_on
 from viaspline.report.sheet import Box, Sheet, new_sheet, view_of
@@ -34,6 +34,7 @@ from viaspline.report.units import metres, seconds
 from viaspline.report.via_marks import draw_plain_vias, draw_vias
 from viaspline.robot.run import Event, Replan, Run
 
+DRAWN_VALUES = 6000  # about how many values are drawn along the path
 CROSS_TRACK_STRIP = "left of path [m]"  # the strip of what a robot with a drive was off
 NOTED_EVENTS = ("detected", "replanned", "skipped", "braked", "stopped", "contact")
 EVENT_MARKS = {
@@ -259,7 +260,7 @@ def _fill_strips(sheet: Sheet, run: Run) -> None:
     if run.positions.shape[1] == 3:
         steps = np.hypot(steps, np.diff(run.positions[:, 2]))
     distances = np.concatenate([[0.0], np.cumsum(steps)])
-    keep = thinned(np.arange(len(distances), dtype=float), 6000).astype(int)
+    keep = with_peaks(run.curvatures, DRAWN_VALUES)
     values = [run.speeds[keep], run.curvatures[keep]]
     if len(strip_names(run.positions)) == 3:
         values.append(run.positions[keep, 2])

@@ -16,6 +16,7 @@ from matplotlib.lines import Line2D
 
 from viaspline.kernels.arrays import Floats
 from viaspline.report.canvas import new_figure, tidy
+from viaspline.report.proven_reference import PROVEN_WORDS, says_proven
 from viaspline.report.style import DPI, INK, MUTED, SMALL_PT, TEXT_PT, TITLE_PT
 from viaspline.report.units import nice
 
@@ -23,6 +24,8 @@ Box = tuple[float, float, float, float]  # x_min, y_min, x_max, y_max [m]
 
 LEFT, RIGHT, TOP, BOTTOM = 0.85, 2.75, 1.2, 0.6  # margins [inch]; the right one is a column
 STRIP, GAP = 0.95, 0.16
+FOOT_PT = 6.0
+"""Size of the line at the foot of the page."""
 WIDEST, TALLEST, NARROWEST, LOWEST = 8.6, 7.4, 4.4, 2.4  # of the map [inch]
 
 
@@ -116,7 +119,10 @@ def new_sheet(
 
 
 def draw_heading(figure: Figure, title: str, subtitles: Sequence[str]) -> None:
-    """Title and subtitles at the left of the page, small enough to fit on it."""
+    """Title and subtitles at the left of the page, small enough to fit on it.
+
+    Where they say that something is proven, the foot of the page says what that covers.
+    """
     across, up = (float(size) for size in figure.get_size_inches())
     canvas = figure.canvas
     assert isinstance(canvas, FigureCanvasAgg)
@@ -130,6 +136,11 @@ def draw_heading(figure: Figure, title: str, subtitles: Sequence[str]) -> None:
         room = across - LEFT - 0.25
         if width > room:
             text.set_fontsize((TEXT_PT if i else TITLE_PT) * room / width)
+    if says_proven(subtitles):
+        figure.text(
+            1 - 0.12 / across, 0.09 / up, PROVEN_WORDS, size=FOOT_PT, color=MUTED, ha="right",
+            va="center",
+        )  # fmt: skip
 
 
 def draw_scale_bar(sheet: Sheet, scale: float, right: float, bottom: float) -> None:

@@ -11,6 +11,7 @@ from viaspline.machine.drivability import Drivability
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
+from viaspline.report.proven_reference import PROVEN_WORDS, says_proven
 from viaspline.report.style import without_folder
 from viaspline.report.summary import map_words
 from viaspline.report.terminal_lines import writing_output
@@ -288,6 +289,8 @@ def facts_table(title: str, rows: Rows) -> Table:
     table.add_column()
     for row in rows:
         table.add_row(*row)
+    if says_proven(word for row in rows for word in row):
+        table.caption, table.caption_justify = PROVEN_WORDS, "left"
     return table
 
 

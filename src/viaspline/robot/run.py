@@ -23,6 +23,7 @@ from viaspline.presentable.moving_value import MovingValue
 from viaspline.presentable.named_columns import Table, coordinates, named_columns
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.tracks.encountered import Encounters
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
@@ -75,6 +76,7 @@ class Visit:
     reason: str | None = None
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class Replan:
     """A path that took the place of another under way.

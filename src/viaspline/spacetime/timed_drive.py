@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.solution import Solution
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.waits import TrafficWait
@@ -55,6 +56,7 @@ class TimedCandidate:
     is_searched: bool = False
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class TimedDrive:
     """A path and a law that are proven clear of what stands and of what moves.

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from viaspline.presentable.told_in_lines import told_in_lines
+
 
 @dataclass(frozen=True)
 class Contact:
@@ -43,6 +45,7 @@ class Pass:
     robot_speed: float
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class Encounters:
     """How near a drive came to what moves.

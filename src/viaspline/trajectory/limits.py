@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.presentable.told_in_lines import told_in_lines
 
 REACTION_S = 0.1
 """Longest time between two looks of the sensor for which speeds are planned [s]."""
@@ -35,6 +36,7 @@ _ALONG = (
 )
 
 
+@told_in_lines
 @dataclass(frozen=True, kw_only=True)
 class Limits:
     """Limits along a path. None: no limit.

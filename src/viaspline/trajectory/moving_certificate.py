@@ -16,6 +16,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.motion import timed_path as columns
 from viaspline.kernels.motion.moving_clearance import moving_tightest
 from viaspline.kernels.motion.timed_path import LAW_COLUMNS, TimedPath
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.outline import outline
@@ -26,6 +27,7 @@ OFF_PATH_SHARE = 1e-9
 """Of a path's length, by which a time law may end beyond it by rounding."""
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class MovingCertificate:
     """What is proven of a drive's distance from all that moves.

@@ -12,8 +12,10 @@ from viaspline.curve.path import Path
 from viaspline.planning.alternatives.kept_account import KeptAccount
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.presentable.told_in_lines import told_in_lines
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class Solution:
     """A path that was proven clear.

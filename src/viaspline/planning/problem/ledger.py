@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.told_in_lines import told_in_lines
 
 PassingSide = Literal["left", "right", "over", "under", "straight"]
 """On which side of a thing a way goes past it, seen along the leg; straight where it only keeps
 closer to the line than the spline does."""
 
 
+@told_in_lines
 @dataclass(frozen=True, eq=False)
 class Candidate(ComparedByValue):
     """One way past a group.
@@ -45,6 +47,7 @@ class Candidate(ComparedByValue):
     passed_over: str | None = None
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class LedgerEntry:
     """A group of obstacles that stood in the way of a leg, and the ways past it.

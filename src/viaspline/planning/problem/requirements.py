@@ -18,10 +18,12 @@ from viaspline.planning.problem.objective import Objective
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.work_budget import Progress, Value, WorkBudget
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.told_in_lines import told_in_lines
 
 LEAST_KEPT_M = 1e-5  # even by a point without clearance, so that touching is not crossing
 
 
+@told_in_lines
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Requirements(ComparedByValue):
     """The robot's needs and the curve's shape.

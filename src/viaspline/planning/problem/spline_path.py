@@ -15,8 +15,10 @@ from viaspline.curve.path import PathVia, ViaKind
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.presentable.told_in_lines import told_in_lines
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class SplinePath:
     """The curve of a via sequence.

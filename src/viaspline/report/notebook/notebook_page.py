@@ -6,6 +6,7 @@ from base64 import b64encode
 from html import escape
 
 from viaspline.presentable.upper_doors import opened, opened_for
+from viaspline.report.proven_reference import PROVEN_WORDS, folded_page, says_proven
 from viaspline.report.terminal_tables import Rows
 
 BESIDE = "vertical-align:top;padding:1px 1.2em 1px 0;text-align:left;white-space:nowrap"
@@ -35,23 +36,33 @@ def summary_text(value: object) -> str:
     rows = rows_of(value)
     wide = max((len(name) for name, _ in rows), default=0)
     lines = [f"  {name:<{wide}}  {words}".rstrip() for name, words in rows]
+    if _says_proven(rows):
+        lines.append(f"  ({PROVEN_WORDS})")
     return "\n".join([type(value).__name__, *lines])
 
 
 def html_page(value: object) -> str:
     """A value as a piece of HTML: its facts, and its picture if it can be drawn.
 
+    Where something is proven, what that covers unfolds at a click.
+
     Args:
         value: As for ``summary_text``.
     """
+    rows = rows_of(value)
     cells = "".join(
         f"<tr><th style='{BESIDE}'>{escape(name.strip())}</th>"
         f"<td style='{WORDS}'>{escape(words)}</td></tr>"
-        for name, words in rows_of(value)
+        for name, words in rows
     )
     title = f"<b>{escape(type(value).__name__)}</b>"
     table = f"<table style='border-collapse:collapse;margin:4px 0'>{cells}</table>"
-    return f"<div>{title}{table}{_image(value)}</div>"
+    page = folded_page() if _says_proven(rows) else ""
+    return f"<div>{title}{table}{page}{_image(value)}</div>"
+
+
+def _says_proven(rows: Rows) -> bool:
+    return says_proven(text for row in rows for text in row)
 
 
 def _image(value: object) -> str:

@@ -21,6 +21,7 @@ from viaspline.report.plan_json import (
     mission_summary,
     path_data,
 )
+from viaspline.report.proven_reference import PROVEN_KEY
 from viaspline.report.space.heights_json import heights_data
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_run import SpatialRun
@@ -37,6 +38,7 @@ def spatial_plan_json(plan: SpatialPlan, name: str) -> str:
     return dumps(
         {
             "mission": _mission(plan, name),
+            **PROVEN_KEY,
             "path": path_data(plan.path) | {"csv_spacing_m": spacing(plan.path.length)},
             "certificate": certificate_data(plan.certificate)
             | moving_certificate_data(plan.moving),
@@ -91,6 +93,7 @@ def flight_json(run: SpatialRun, name: str) -> str:
     return dumps(
         {
             "name": name,
+            **PROVEN_KEY,
             "reached": run.reached,
             "reason": run.reason or None,
             "duration_s": run.duration,

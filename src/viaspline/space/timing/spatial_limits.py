@@ -10,9 +10,11 @@ from dataclasses import dataclass
 
 from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.trajectory.limits import Limits
 
 
+@told_in_lines
 @dataclass(frozen=True, kw_only=True)
 class SpatialLimits:
     """Limits of a drive in space. None: no limit of its own.
