@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
+from viaspline.formats.yaml_lines import flow
 from viaspline.mission.fleet.file_schema import file_schema
 from viaspline.mission.value import Value
 
@@ -21,6 +22,8 @@ headings turn anticlockwise from x.
 """
 FIRST = ("world", "robot", "route", "spline", "separation_m", "robots", "fleet")
 """The keys of a file whose classes come first; those of all others follow."""
+MOST_EXAMPLES = 3
+"""Of a key."""
 _UNIT = re.compile(r" ?\[([a-zA-Z/²³°%]+)\](?=[.;:,]|$| )")
 
 
@@ -68,16 +71,22 @@ def _named(schema: Any) -> Iterator[str]:
 
 
 def _table(properties: dict[str, Any], required: Any) -> str:
-    rows = ["| key | takes | unit | default | what it is |", "|---|---|---|---|---|"]
+    rows = ["| key | takes | unit | default | example | what it is |", "|---|---|---|---|---|---|"]
     for key, schema in properties.items():
         text = " ".join(schema.get("description", "").split()).replace("|", "\\|")
         unit = _UNIT.search(text)
         words = _UNIT.sub("", text, count=1).replace("[", "&#91;")  # no link of Markdown
         rows.append(
             f"| `{key}` | {_takes(schema)} | {unit[1] if unit else ''} "
-            f"| {_default(key, schema, required)} | {words} |"
+            f"| {_default(key, schema, required)} | {_example(schema)} | {words} |"
         )
     return "\n".join(rows) + "\n"
+
+
+def _example(schema: dict[str, Any]) -> str:
+    """How the key is written, most often in one way; what has other forms has up to three."""
+    said = [flow(one).replace("|", "\\|") for one in schema.get("examples", ())]
+    return ", ".join(f"`{one}`" for one in said[:MOST_EXAMPLES])
 
 
 def _default(key: str, schema: dict[str, Any], required: Any) -> str:

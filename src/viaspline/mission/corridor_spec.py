@@ -30,6 +30,11 @@ CorridorLine: TypeAlias = Annotated[
 class Corridor(
     Value,
     expected="{left_m: 2, right_m: 2}, or {csv: track.csv} with rows x, y, right, left",
+    examples=(
+        {"left_m": 2, "right_m": 3},
+        {"line": [[0, 0, 2, 2], [40, 0, 3, 2]]},
+        {"csv": "track.csv"},
+    ),
 ):
     """A strip that the path stays inside of: a lane, a race track, the strip along a pipeline.
 

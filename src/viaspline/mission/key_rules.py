@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import inspect
 import re
+from collections.abc import Iterable, Mapping
 from typing import Any, Final, TypedDict
 
 from pydantic import BaseModel
@@ -23,12 +24,14 @@ class KeyRules(TypedDict, total=False):
         exactly_one: Keys of which exactly one has to be given.
         excluding: Pairs of keys of which one at most may be given.
         needing: Keys that make sense beside another only.
+        examples: Mappings as files have them, which show each of its keys.
     """
 
     expected: str
     exactly_one: tuple[str, ...]
     excluding: tuple[tuple[str, str], ...]
     needing: tuple[tuple[str, str], ...]
+    examples: tuple[Mapping[str, Any], ...]
 
 
 def describe_keys(model: type[BaseModel], rules: KeyRules, schema: dict[str, Any]) -> None:
@@ -45,6 +48,10 @@ def describe_keys(model: type[BaseModel], rules: KeyRules, schema: dict[str, Any
         prop = schema["properties"].get(field.alias or name)
         if prop is not None and name in documented:
             prop["description"] = documented[name]
+    if "examples" in rules:
+        schema["examples"] = list(rules["examples"])
+        for key, prop in schema["properties"].items():
+            prop["examples"] = _distinct(one[key] for one in rules["examples"] if key in one)
     if "exactly_one" in rules:
         told = [key for key in rules["exactly_one"] if key in schema["properties"]]
         schema["oneOf"] = [{"required": [key]} for key in told]
@@ -52,6 +59,15 @@ def describe_keys(model: type[BaseModel], rules: KeyRules, schema: dict[str, Any
         schema["not"] = {"anyOf": [{"required": list(pair)} for pair in rules["excluding"]]}
     if "needing" in rules:
         schema["dependentRequired"] = {key: [other] for key, other in rules["needing"]}
+
+
+def _distinct(values: Iterable[Any]) -> list[Any]:
+    """Values without those that were there before; they needn't have a hash."""
+    found: list[Any] = []
+    for value in values:
+        if value not in found:
+            found.append(value)
+    return found
 
 
 def documentation(model: type) -> dict[str, str]:

@@ -19,7 +19,14 @@ from viaspline.mission.value import Value
 CellSize: TypeAlias = Annotated[Number, METRES, Field(ge=MIN_LENGTH_M, le=LARGEST_CELL_M)]
 
 
-class MapSpec(Value):
+class MapSpec(
+    Value,
+    examples=(
+        {"map": "maps/depot.yaml", "unknown": "free", "name": "depot"},
+        {"map": "site.geojson", "pass_on": "left", "height_m": [0, 12]},
+        {"map": "site.svg", "resolution_m": 0.5, "never_pass_on": "right"},
+    ),
+):
     """Obstacles that have a file of their own, as a mission asks for them.
 
     Attributes:

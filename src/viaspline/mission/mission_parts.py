@@ -16,7 +16,18 @@ from viaspline.mission.value import Value
 from viaspline.mission.world_spec import WorldSpec
 
 
-class MissionParts(Value):
+class MissionParts(
+    Value,
+    examples=(
+        {
+            "world": {"known": [{"circle": {"center": [20, 1], "radius": 3}}]},
+            "robot": {"radius_m": 0.4, "max_speed_mps": 1.5},
+            "route": {"start": [0, 0], "via": [[20, 8]], "goal": [40, 0]},
+            "spline": {"tension": 0.1},
+            "ros": {"odom_topic": "/odom"},
+        },
+    ),
+):
     """All parts of a mission, each sound by itself.
 
     Attributes:

@@ -70,6 +70,7 @@ Velocity: TypeAlias = Annotated[
 class MotionError(
     Value,
     expected="a mapping such as {position_m: 0.05, growth_mps: 0.1}",
+    examples=({"position_m": 0.05, "growth_mps": 0.1},),
 ):
     """How far from where it is said to be an obstacle may be.
 
@@ -88,6 +89,10 @@ class Motion(
     "{from: [10, 3], velocity_mps: [1, 0]}",
     exactly_one=("keyframes", "from"),
     needing=(("after", "keyframes"), ("before", "keyframes"), ("velocity_mps", "from")),
+    examples=(
+        {"keyframes": [[0, 1, 2], [4, 5, 2]], "after": "vanish", "before": "absent"},
+        {"from": [10, 3], "velocity_mps": [1, 0], "error": {"position_m": 0.05}},
+    ),
 ):
     """How an obstacle moves; its shape stands in a frame of its own, which is moved and turned.
 

@@ -34,6 +34,7 @@ from viaspline.mission.value import Value, two_of
 class Localization(
     Value,
     expected="a mapping such as {position_noise_m: 0.02, heading_noise_deg: 0.5}",
+    examples=({"position_noise_m": 0.02, "heading_noise_deg": 0.5},),
 ):
     """How well the robot knows where it is, in the simulator.
 
@@ -52,6 +53,7 @@ TurnOnSpot = Literal["never", "stations", "vias"]
 class MovingThings(
     Value,
     expected="a mapping such as {max_speed_mps: 2, safety: passive}",
+    examples=({"max_speed_mps": 2, "safety": "passive"},),
 ):
     """What the robot has to reckon with where it doesn't see.
 
@@ -69,6 +71,39 @@ class RobotSpec(
     Value,
     expected="a mapping such as {radius_m: 0.5, clearance_m: 0.5, max_speed_mps: 2}",
     excluding=(("radius_m", "footprint"), ("max_yaw_rate_degps", "max_yaw_rate_dps")),
+    examples=(
+        {
+            "radius_m": 0.4,
+            "clearance_m": 0.3,
+            "prefer_clearance_m": 0.5,
+            "min_turn_radius_m": 2.5,
+            "turn_on_spot": "stations",
+            "max_speed_mps": 1.5,
+            "max_accel_mps2": 0.8,
+            "max_brake_mps2": 1.2,
+            "max_lateral_accel_mps2": 0.5,
+            "max_yaw_rate_degps": 45,
+            "max_yaw_accel_degps2": 90,
+            "max_jerk_mps3": 2,
+            "drive": {"differential": {"track_m": 0.5}},
+            "localization": {"position_noise_m": 0.02},
+            "tracking_error_m": 0.1,
+            "sensor": {"range_m": 40},
+            "moving": {"max_speed_mps": 2},
+            "max_replan_s": 0.5,
+        },
+        {
+            "footprint": [[-0.4, -0.6], [2.2, -0.6], [2.2, 0.6], [-0.4, 0.6]],
+            "max_lateral_accel_mps2": "unlimited",
+        },
+        {
+            "half_height_m": 0.2,
+            "max_climb_mps": 3,
+            "max_descent_mps": 2,
+            "max_vertical_accel_mps2": 1.5,
+            "max_yaw_rate_dps": 60,
+        },
+    ),
 ):
     """The robot's body, its drive, its limits and its sensor.
 

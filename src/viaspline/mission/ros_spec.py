@@ -12,6 +12,22 @@ from viaspline.mission.value import Value
 class RosSpec(
     Value,
     expected="a mapping such as {odom_topic: /odom, robot_base_frame: base_link}",
+    examples=(
+        {
+            "odom_topic": "/odometry/filtered",
+            "scan_topic": "/front/scan",
+            "map_topic": "/map",
+            "goal_topic": "/goal_pose",
+            "waypoints_topic": "/waypoints",
+            "initial_pose_topic": "/initialpose",
+            "cmd_vel_topic": "/cmd_vel_nav",
+            "enable_stamped_cmd_vel": True,
+            "path_topic": "/plan",
+            "global_frame": "map",
+            "odom_frame": "odom",
+            "robot_base_frame": "base_footprint",
+        },
+    ),
 ):
     """How a robot's ROS 2 calls its topics and frames; the defaults are Nav2's names.
 

@@ -63,6 +63,11 @@ def _is_place(value: Any) -> bool:
 class ViaPoint(
     Value,
     expected="[x, y] or {at: [x, y], name: ..., dwell_s: ...}",
+    examples=(
+        {"at": [20, 8], "name": "pump", "dwell_s": 10},
+        {"at": [20, 8], "agl_m": 12, "look_at": [25, 8, 2]},
+        {"gate": {"at": [20, 0, 5], "facing_deg": 0, "width_m": 3, "height_m": 3}},
+    ),
 ):
     """A place that the path runs through, exactly; a station if it has a dwell.
 
@@ -113,7 +118,13 @@ class ViaPoint(
         return self.agl_m is not None or self.look_at is not None or self.gate is not None
 
 
-class EndPoint(ViaPoint):
+class EndPoint(
+    ViaPoint,
+    examples=(
+        {"at": [0, 0], "name": "dock", "dwell_s": 5, "heading_deg": 90},
+        {"at": [0, 0], "agl_m": 10, "look_at": [5, 0, 2]},
+    ),
+):
     """The start or the goal.
 
     Attributes:
@@ -137,7 +148,30 @@ Vias: TypeAlias = Annotated[
 ]
 
 
-class Route(Value):
+class Route(
+    Value,
+    examples=(
+        {
+            "start": [0, 0],
+            "via": [[20, 8], {"at": [30, 4], "dwell_s": 10}],
+            "goal": {"at": [40, 0], "heading_deg": 90},
+            "order": "shortest",
+            "corridor": {"left_m": 2, "right_m": 2},
+            "optimise": "length",
+            "detours": "short",
+            "depart_s": 5,
+            "hold_s": 2,
+        },
+        {"start": [0, 0], "via": [[20, 8], [20, -8]], "closed": True, "laps": 3},
+        {
+            "start": [0, 0],
+            "takeoff": {"to_agl_m": 10},
+            "via": [{"at": [20, 8], "agl_m": 15}],
+            "land": [40, 0],
+            "yaw": "along",
+        },
+    ),
+):
     """Start, via points in order, goal.
 
     Attributes:

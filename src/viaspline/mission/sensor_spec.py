@@ -21,6 +21,7 @@ MIN_FOV_DEG: Final = 0.01
 class Lidar(
     Value,
     expected="a mapping such as {range_m: 5, fov_deg: 270, beams: 720, noise_m: 0.01}",
+    examples=({"range_m": 5, "fov_deg": 270, "beams": 720, "noise_m": 0.01},),
 ):
     """A scanner that measures the distance along each of its beams.
 
@@ -43,6 +44,10 @@ class Sensor(
     expected="{range_m: 40} or {lidar: {range_m: 5}}",
     exactly_one=("range_m", "lidar"),
     needing=(("velocity_noise_mps", "range_m"),),
+    examples=(
+        {"range_m": 40, "velocity_noise_mps": 0.1},
+        {"lidar": {"range_m": 5, "fov_deg": 270}},
+    ),
 ):
     """What finds the obstacles that are not on the map: a range sensor or a lidar.
 

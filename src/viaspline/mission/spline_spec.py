@@ -27,6 +27,11 @@ class SplineSpec(
     Value,
     expected="a mapping such as {tension: 0.1}",
     excluding=(("tension", "slack"),),
+    examples=(
+        {"tension": 0.1, "knots": "chordal", "tangents": "continuous"},
+        {"slack": 0.45},
+        {"tension": "auto"},
+    ),
 ):
     """The curve's shape.
 

@@ -15,7 +15,18 @@ from viaspline.mission.motion_spec import After, MotionError
 from viaspline.mission.value import Value
 
 
-class TracksSpec(Value):
+class TracksSpec(
+    Value,
+    examples=(
+        {
+            "tracks": "tracks/dynabarn_44.csv",
+            "radius_m": 0.3,
+            "name": "person",
+            "after": "vanish",
+            "error": {"position_m": 0.1},
+        },
+    ),
+):
     """Moving discs that have a file of their own, as a mission asks for them.
 
     Attributes:

@@ -48,6 +48,9 @@ Bounds4: TypeAlias = Annotated[
 class SpeedZone(
     Standalone,
     expected="a zone such as {polygon: [[x, y], ...], max_speed_mps: 0.5}",
+    examples=(
+        {"polygon": [[24, 16], [35, 16], [35, 24], [24, 24]], "max_speed_mps": 0.8, "name": "gate"},
+    ),
 ):
     """An area in which the robot drives more slowly.
 
@@ -102,7 +105,21 @@ SpeedZones: TypeAlias = Annotated[
 ]
 
 
-class WorldSpec(Value):
+class WorldSpec(
+    Value,
+    examples=(
+        {
+            "bounds": [0, 0, 60, 40],
+            "fences": [[[1, 1], [59, 1], [59, 39], [1, 39]]],
+            "known": [{"circle": {"center": [20, 10], "radius": 3}}, {"map": "maps/depot.yaml"}],
+            "unseen": [{"circle": {"center": [40, 12], "radius": 1}}],
+            "speed_zones": [{"polygon": [[24, 16], [35, 16], [35, 24]], "max_speed_mps": 0.5}],
+            "altitude": {"min_m": 5, "max_m": 120},
+            "ground": {"flat_m": 400},
+            "origin_deg": [47.3977, 8.5456],
+        },
+    ),
+):
     """The known map, and what is there but not on the map.
 
     Attributes:

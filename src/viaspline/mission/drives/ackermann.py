@@ -21,6 +21,7 @@ MIN_STEER_DEG: Final = 0.5
 class Ackermann(
     DriveKind,
     expected="a mapping such as {wheelbase_m: 2.5, max_steer_deg: 35}",
+    examples=({"wheelbase_m": 1.7, "max_steer_deg": 32, "max_steer_rate_degps": 30},),
 ):
     """Steered front wheels, as a bicycle; the reference point is the middle of the rear axle.
 

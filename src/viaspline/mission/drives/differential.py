@@ -13,6 +13,7 @@ from viaspline.mission.fields import Length, Speed
 class Differential(
     DriveKind,
     expected="a mapping such as {track_m: 0.5}",
+    examples=({"track_m": 0.5, "max_wheel_speed_mps": 1.5},),
 ):
     """Two driven wheels on one axle.
 

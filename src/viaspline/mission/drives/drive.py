@@ -25,6 +25,18 @@ class Drive(
     OneOf,
     expected="a mapping such as {ackermann: {wheelbase_m: 2.5, max_steer_deg: 35}, delay_s: 0.1}",
     exactly_one=("differential", "ackermann", "skid_steer", "omnidirectional"),
+    examples=(
+        {
+            "ackermann": {"wheelbase_m": 1.7, "max_steer_deg": 32},
+            "delay_s": 0.1,
+            "lag_s": 0.2,
+            "speed_noise_mps": 0.02,
+            "yaw_rate_noise_degps": 0.5,
+        },
+        {"differential": {"track_m": 0.5}},
+        {"skid_steer": {"track_m": 0.8, "slip": 0.2}},
+        {"omnidirectional": {"max_speed_along_mps": 1, "max_speed_across_mps": 0.7}},
+    ),
 ):
     """What moves the robot, and how far from perfect that is in the simulator.
 

@@ -14,6 +14,7 @@ from viaspline.mission.fields import Heading, Speed
 class Omnidirectional(
     DriveKind,
     expected="a mapping such as {max_speed_along_mps: 1, max_speed_across_mps: 0.7}",
+    examples=({"max_speed_along_mps": 1, "max_speed_across_mps": 0.7, "hold_heading_deg": 0},),
 ):
     """Mecanum, omni or swerve wheels: the body goes any way, whichever way it looks.
 

@@ -18,6 +18,7 @@ MAX_SLIP: Final = 0.99
 class SkidSteer(
     DriveKind,
     expected="a mapping such as {track_m: 0.8, slip: 0.2}",
+    examples=({"track_m": 0.8, "slip": 0.2, "max_wheel_speed_mps": 2},),
 ):
     """Wheels or tracks on either side that slip when the robot turns.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Final
 
 from viaspline.mission.fleet.fleet import Fleet
-from viaspline.mission.json_schema import json_schema
+from viaspline.mission.json_schema import SchemaInOrder, json_schema
 
 _ONE_ROBOT: Final = ("robot", "route")
 _MANY_ROBOTS: Final = ("separation_m", "robots", "fleet")
@@ -23,7 +23,7 @@ def file_schema() -> dict[str, Any]:
     (['fleet'], ['route'])
     """
     mission = json_schema()
-    fleet = Fleet.model_json_schema(mode="validation")
+    fleet = Fleet.model_json_schema(schema_generator=SchemaInOrder, mode="validation")
     return {
         "$schema": mission["$schema"],
         "$defs": {**mission["$defs"], **fleet["$defs"]},

@@ -31,7 +31,18 @@ Members: TypeAlias = Annotated[
 ]
 
 
-class FleetParts(Value):
+class FleetParts(
+    Value,
+    examples=(
+        {
+            "world": {"bounds": [0, 0, 60, 40]},
+            "separation_m": 0.3,
+            "robots": {"cart": {"radius_m": 0.4}},
+            "fleet": [{"name": "r1", "robot": "cart", "route": {"start": [5, 5], "goal": [50, 5]}}],
+            "spline": {"tension": 0.1},
+        },
+    ),
+):
     """All parts of a fleet, each sound by itself.
 
     Attributes:

@@ -31,6 +31,18 @@ class MemberSpec(
     expected="a robot such as {name: r1, robot: cart, route: {start: [0, 0], goal: [9, 0]}} or "
     "{name: r2, mission: r2.yaml}",
     excluding=(("mission", "robot"), ("mission", "route"), ("mission", "spline")),
+    examples=(
+        {
+            "name": "r1",
+            "robot": "cart",
+            "route": {"start": [0, 0], "goal": [9, 0]},
+            "spline": {"tension": 0.1},
+            "priority": 2,
+            "depart_s": 5,
+            "rest": "leave",
+        },
+        {"name": "r2", "mission": "r2.yaml"},
+    ),
 ):
     """A robot of a fleet: a kind of robot with its route, or a mission over the fleet's world.
 

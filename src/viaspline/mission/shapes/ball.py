@@ -20,6 +20,7 @@ BALL_WORDS: Final = "{center: [x, y, z], radius: 5}"
 class Ball(
     Value,
     expected=BALL_WORDS,
+    examples=({"center": [20, 10, 30], "radius": 4},),
 ):
     """Everything within a radius of a place.
 

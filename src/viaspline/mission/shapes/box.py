@@ -21,6 +21,7 @@ BOX_WORDS: Final = "{min: [x, y, z], max: [x, y, z]}"
 class Box(
     Value,
     expected=BOX_WORDS,
+    examples=({"min": [0, 0, 0], "max": [4, 2, 9], "yaw_deg": 30},),
 ):
     """All places between two corners, turned about the upright line through its middle.
 

@@ -22,6 +22,7 @@ CAPSULE_WORDS: Final = "{from: [x, y], to: [x, y], radius: 0.3}"
 class Capsule(
     Value,
     expected=CAPSULE_WORDS,
+    examples=({"from": [0, 5], "to": [30, 5], "radius": 0.2},),
 ):
     """Everything within a radius of a straight line.
 

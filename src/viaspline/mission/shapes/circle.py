@@ -19,6 +19,7 @@ CIRCLE_WORDS: Final = "{center: [x, y], radius: 5}"
 class Circle(
     Value,
     expected=CIRCLE_WORDS,
+    examples=({"center": [20, 10], "radius": 3},),
 ):
     """A disc.
 

@@ -65,6 +65,22 @@ class Obstacle(
     expected="an obstacle such as {circle: {center: [x, y], radius: 5}}",
     exactly_one=SHAPES,
     needing=(("holes", "polygon"),),
+    examples=(
+        {"circle": {"center": [20, 10], "radius": 3}, "name": "tank", "pass_on": "left"},
+        {"capsule": {"from": [0, 5], "to": [30, 5], "radius": 0.2}, "never_pass_on": "right"},
+        {
+            "polygon": [[0, 0], [9, 0], [9, 9], [0, 9]],
+            "holes": [[[3, 3], [6, 3], [6, 6]]],
+            "height_m": [0, 12],
+        },
+        {"ball": {"center": [20, 10, 30], "radius": 4}},
+        {"box": {"min": [0, 0, 0], "max": [4, 2, 9]}},
+        {"voxels": {"file": "maps/plant.3dmap"}},
+        {
+            "circle": {"center": [0, 0], "radius": 1},
+            "motion": {"from": [10, 3], "velocity_mps": [1, 0]},
+        },
+    ),
 ):
     """Something to keep clear of: a flat shape, a map's squares, or a solid.
 

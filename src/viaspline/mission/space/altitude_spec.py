@@ -17,6 +17,7 @@ Above: TypeAlias = Literal["home", "ground", "amsl"]
 class AltitudeSpec(
     Value,
     expected="a mapping such as {min_m: 5, max_m: 120, above: home}",
+    examples=({"min_m": 5, "max_m": 120, "above": "ground"},),
 ):
     """How low and how high the robot's reference point may be.
 

@@ -14,6 +14,7 @@ from viaspline.mission.value import Value
 class GateSpec(
     Value,
     expected="{at: [x, y, z], facing_deg: 30, width_m: 2, height_m: 1.5}",
+    examples=({"at": [20, 0, 5], "facing_deg": 30, "width_m": 3, "height_m": 2},),
 ):
     """An upright opening; the path goes through its middle, in the direction that it faces.
 

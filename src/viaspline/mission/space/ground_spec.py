@@ -44,6 +44,10 @@ class GroundSpec(
     expected="{flat_m: 0}, or {terrain: dem.tif} with a .tif or .asc file",
     exactly_one=("flat_m", "terrain"),
     needing=(("nodata", "terrain"), ("origin_m", "terrain")),
+    examples=(
+        {"flat_m": 400},
+        {"terrain": "maps/hills.asc", "nodata": "free", "origin_m": [100, 50]},
+    ),
 ):
     """How high the ground is. Its heights are those of the mission: z counts from their zero.
 

@@ -16,6 +16,7 @@ from viaspline.mission.value import Value
 class Takeoff(
     Value,
     expected="{to_agl_m: 10}",
+    examples=({"to_agl_m": 10},),
 ):
     """Straight up from the start, before anything else.
 
@@ -29,6 +30,7 @@ class Takeoff(
 class Landing(
     Value,
     expected="[x, y] or {at: [x, y]}",
+    examples=({"at": [40, 0]},),
 ):
     """Straight down at the end of the route, to the ground.
 

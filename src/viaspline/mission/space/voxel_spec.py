@@ -20,6 +20,10 @@ VOXEL_WORDS = "{file: plant.bt}, with a .bt or .3dmap file"
 class VoxelSpec(
     Value,
     expected=VOXEL_WORDS,
+    examples=(
+        {"file": "maps/plant.3dmap", "cell_m": 0.5, "origin_m": [100, 50, 0]},
+        {"file": "site.bt", "unknown": "free"},
+    ),
 ):
     """Voxels that have a file of their own.
 

@@ -16,6 +16,10 @@ class FixedYaw(
     OneOf,
     expected="{to: [x, y, z]} or {fixed_deg: 90}",
     exactly_one=("to", "fixed_deg"),
+    examples=(
+        {"to": [20, 10, 3]},
+        {"fixed_deg": 90},
+    ),
 ):
     """Somewhere else than along the path.
 
