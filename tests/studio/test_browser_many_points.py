@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import combinations
+from itertools import combinations, product
 from pathlib import Path
 from typing import Any
 
@@ -125,6 +125,21 @@ def test_a_long_survey_is_read_shown_and_dragged(visit: Visit, survey: Path) -> 
     page.drag(at, [at[0] + 24, at[1] + 15])
     assert page.doc["route"]["via"][410]["at"] != at
     assert page.plan["ok"]
+
+
+@pytest.mark.parametrize("width", [390, 600, 1920])
+def test_names_of_many_points_lie_on_nothing_however_wide_the_map_is(
+    visit: Visit, survey: Path, width: int
+) -> None:
+    page = visit(survey, width=width, height=800)
+    texts = page.js(TEXTS)
+    names = [one["box"] for one in texts if one["text"].startswith("WP-")]
+    numbers = [one["box"] for one in texts if one["isNumber"] and one["text"].isdigit()]
+    assert numbers
+    for a, b in [*combinations(names, 2), *product(names, numbers)]:
+        assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
+    width = page.js("studio.camera.width")
+    assert all(left >= 0 and right <= width for left, _, right, _ in names)
 
 
 def test_a_few_points_are_all_numbered_and_named(visit: Visit, patrol: Path) -> None:

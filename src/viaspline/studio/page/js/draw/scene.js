@@ -209,7 +209,7 @@ export class Scene {
     else if (this.preview.isOn && !store.isLate && store.plan?.ok) this.drawPreviewed(pen, body);
     if (this.draft) drawDraft(pen, this.draft);
     if (this.cross) drawCross(pen, this.cross);
-    this.drawNames(pen, points.filter((point) => shown.has(point.id)), obstacles, isDriving, moving);
+    this.drawNames(pen, points.filter((point) => shown.has(point.id)), points.length > FEW_POINTS, obstacles, isDriving, moving);
     drawScale(pen, 16, 16, show.speed ? maxSpeed : null);
     for (const draw of this.overlays) draw(pen);
   }
@@ -260,8 +260,8 @@ export class Scene {
     return pointsOf(this.store.doc).find((point) => point.id === id)?.at ?? null;
   }
 
-  /** @param {Pen} pen @param {any[]} points @param {import("../core/mission.js").Obstacle[]} obstacles @param {boolean} isDriving @param {import("./moving.js").Placed[]} moving */
-  drawNames(pen, points, obstacles, isDriving, moving) {
+  /** @param {Pen} pen @param {any[]} points @param {boolean} isCrowded whether there are more points than those @param {import("../core/mission.js").Obstacle[]} obstacles @param {boolean} isDriving @param {import("./moving.js").Placed[]} moving */
+  drawNames(pen, points, isCrowded, obstacles, isDriving, moving) {
     const { camera, store } = this;
     const { colours } = pen;
     /** @type {import("./labels.js").Label[]} */ const labels = [];
@@ -285,7 +285,7 @@ export class Scene {
         if (!point.at || (!point.given && store.selection !== point.id)) continue;
         const [x, y] = camera.toScreen(point.at[0], point.at[1]);
         const dwell = point.dwell > 0 ? ` · ${point.dwell} s` : "";
-        labels.push({ text: point.name + dwell, x, y, away: 13, colour: colours.label, bold: true, rank: store.selection === point.id ? 0 : 1, yields: points.length > FEW_POINTS && store.selection !== point.id });
+        labels.push({ text: point.name + dwell, x, y, away: 13, colour: colours.label, bold: true, rank: store.selection === point.id ? 0 : 1, yields: isCrowded && store.selection !== point.id });
       }
       for (const obstacle of outlined(obstacles)) {
         if (!obstacle.given) continue;

@@ -9,6 +9,8 @@ import { bend, down, metres, number, place, seconds } from "../units.js";
 import { fill, h, icon, lazily, sentence } from "./dom.js";
 import { meaning } from "./meaning.js";
 
+const PROVEN = "proven";
+
 export class Summary {
   /** @param {any} app */
   constructor(app) {
@@ -38,7 +40,7 @@ export class Summary {
     if (this.busy) this.pill("is-busy", "…", this.busy);
     else if (!plan) this.pill("is-busy", "…", "planning");
     else if (store.fleetPlan?.answer.ok) this.fleetPill(store.fleetPlan);
-    else if (plan.ok) this.pill("is-good", "check", `${plan.certificate.clearance === null ? "nothing to keep clear of" : "proven clear"} · ${metres(plan.length, 1)} · ${seconds(plan.duration)}`);
+    else if (plan.ok) this.pill("is-good", "check", `${plan.certificate.clearance === null ? "nothing to keep clear of" : "proven clear"} · ${metres(plan.length, 1)} · ${seconds(plan.duration)}`, "a-path");
     else if (plan.gave_up) this.pill("is-bad", "warn", plan.problems[0]?.text ?? "gave up");
     else this.pill("is-bad", "warn", `no path: ${plan.problems[0]?.text ?? ""}`);
     this.panel.classList.toggle("is-late", store.isLate);
@@ -49,16 +51,19 @@ export class Summary {
 
   /** @param {import("../core/fleet_plan.js").FleetPlan} fleet */
   fleetPill({ driving, byName, certificate, missing, served, isWhole, lasts }) {
-    if (served) this.pill("is-good", "check", `proven apart · ${byName.size} robots · ${seconds(lasts[1])}`);
+    if (served) this.pill("is-good", "check", `proven apart · ${byName.size} robots · ${seconds(lasts[1])}`, "fleets-and-space");
     else if (!isWhole) this.pill("is-busy", "…", `${driving.length} of ${byName.size} served, trying other ways`);
     else if (missing.length) this.pill("is-bad", "warn", `${driving.length} of ${byName.size} served: ${missing[0].name}: ${missing[0].missing?.reason ?? ""}`);
     else this.pill("is-bad", "warn", `too near: ${metres(certificate.separation)} of ${metres(certificate.required)}`);
   }
 
-  /** @param {string} kind @param {string} sign @param {string} text */
-  pill(kind, sign, text) {
+  /**
+   * @param {string} kind @param {string} sign @param {string} text
+   * @param {"a-path"|"fleets-and-space"} [section] where the word with which a proof begins leads to
+   */
+  pill(kind, sign, text, section) {
     this.status.className = `status ${kind}`;
-    fill(this.status, sign === "…" ? h("span", { class: "spinner", "aria-hidden": "true" }) : icon(/** @type {any} */ (sign), 16), h("span", { class: "status-text" }, text));
+    fill(this.status, sign === "…" ? h("span", { class: "spinner", "aria-hidden": "true" }) : icon(/** @type {any} */ (sign), 16), h("span", { class: "status-text" }, ...(section && text.startsWith(PROVEN) ? [meaning(section, PROVEN), text.slice(PROVEN.length)] : [text])));
     this.status.title = text;
   }
 
