@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.path import Path
 from viaspline.trajectory.limits import Limits, Station
-from viaspline.trajectory.part import retime_part
+from viaspline.trajectory.part import end_of_cells, retime_part
 from viaspline.trajectory.retime import braking, retime
 
 LIMITS = Limits(max_speed=2.0, max_accel=1.0, max_lateral_accel=0.5, max_jerk=2.0)
@@ -79,3 +79,15 @@ def test_what_comes_before_a_rest_stays_though_the_next_law_begins_after_it(
     for found, true in zip(both.state_at(times)[:2], old.state_at(times)[:2], strict=True):
         np.testing.assert_allclose(found, true, atol=1e-9)
     assert len(both.accelerations) == len(both.times) - 1
+
+
+def test_a_part_ends_sooner_where_a_bend_has_many_cells_and_nowhere_else() -> None:
+    sharp = Path(CardinalSpline([[0, 0], [6, 0], [6.02, 0.05], [0, 1]], slack=0.05).spans, vias=[])
+    limits = Limits(max_speed=1.0, max_accel=0.6, max_yaw_accel=0.8, max_jerk=2.0)
+    bend = float(sharp.distance(1.0))
+    ends = [end_of_cells(sharp, bend - 2.0, bend + 1.0, limits, 0.5, most) for most in (60, 120)]
+    assert bend - 2.0 < ends[0] < ends[1] < bend + 1.0
+    law = retime_part(sharp, bend - 2.0, ends[0], limits, start_speed=0.5)
+    whole = retime_part(sharp, bend - 2.0, bend + 1.0, limits, start_speed=0.5)
+    assert 3 * law.times.size < whole.times.size
+    assert end_of_cells(bent(), 1.0, 9.0, LIMITS, 0.5, 250) == 9.0

@@ -21,8 +21,9 @@ GATE, SHARE, PIECES = 0.009, 0.0022, 16
 """Where more than ``GATE`` of the time may be lost to the grid, stretches are cut into up to
 ``PIECES`` so that it is ``SHARE``. What is lost indeed is a fifth to a half of that."""
 
-MAX_STRETCHES = 20_000
-"""A cell is never made shorter than the path over this, as long as it bends little."""
+MAX_STRETCHES, LEAST_RAMPS = 20_000, 4.0
+"""A cell is never made shorter than the path over this, as long as it bends little, nor than so
+many ways to full speed over it: a short part of a path is cut no finer than a longer one."""
 
 
 class Profile(NamedTuple):
@@ -91,7 +92,7 @@ def cell_size_for(
         steered = limits.max_steer_rate / limits.wheelbase * max(stage.top, stage.first)
     return CellSize(
         longest=longest if grid is None else min(longest, length / grid),
-        least=length / MAX_STRETCHES,
+        least=max(length, LEAST_RAMPS * stage.top**2 / (2.0 * accel)) / MAX_STRETCHES,
         accel=accel,
         square=square,
         axis=min([*axes.tolist(), _or_inf(limits.max_lateral_accel)]),

@@ -14,12 +14,18 @@ from typing import NamedTuple
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.timing.speed_barrier import BarrierTerms, barrier_least, barrier_value
+from viaspline.kernels.timing.speed_barrier import (
+    BarrierTerms,
+    barrier_least,
+    barrier_limit,
+    barrier_value,
+    motion_time,
+)
 
-DUALITY_GAP = 2e-4
+DUALITY_GAP = 1e-4
 """What the barrier keeps of the time, at most, as a part of it."""
 
-BARRIER_GROWTH = 12.0
+FIRST_SHARPNESS, BARRIER_GROWTH = 2.0, 12.0
 MAX_NEWTON_STEPS = 60
 
 LOOSER, NEARER = 40, 8
@@ -82,8 +88,9 @@ class SpeedProblem:
         before: The coefficient of the stretch before all of these [m²/s²].
         jerk: On each [m/s³], shape (n,).
         ends: a0, a1, w0, m, w1 of the stretches, shape (n, 5, 3).
-        rows: Linear limits, shape (n, k, 3).
-        limits: Their right-hand sides, shape (n, k); inf where a row is empty.
+        rows: Linear limits, those of each stretch behind each other, shape (r, 3).
+        limits: Their right-hand sides, shape (r,).
+        first: The first row of every stretch, and how many there are, shape (n + 1,).
         change: da/ds, shape (n, 3).
         gauss: w at two places of every stretch, shape (n, 2, 3).
         rests: Stretches beside a rest: the one that moves next to it, and the weight of its
@@ -100,6 +107,7 @@ class SpeedProblem:
     ends: Floats
     rows: Floats
     limits: Floats
+    first: Ints
     change: Floats
     gauss: Floats
     rests: Floats
@@ -120,8 +128,7 @@ class SpeedProblem:
         ends = _joined_ends(widths, h, start, end)
         near = np.stack((np.arange(-1, n - 1), np.arange(n), np.arange(1, n + 1)), axis=1)
         near[0, 0], near[-1, 2] = (n - 1, 0) if isinstance(start, Seam) else (n, n + 1)
-        inside = np.einsum("nkz,nzc->nkc", rows.weights[inner], ends)
-        more, bound = _outer_rows(widths, rows, jerk, ends, start, end)
+        linear, limits, first = _joined_rows(widths, rows, jerk, ends, start, end, inner)
         x = np.array(_GAUSS)[:, None, None]
         at = (1 - x) ** 2 * ends[:, 2] + 2 * x * (1 - x) * ends[:, 3] + x * x * ends[:, 4]
         rests = []
@@ -135,11 +142,9 @@ class SpeedProblem:
         places, bands = _places(near, order)
         before = start.square + start.accel * widths[0] if isinstance(start, Moving) else 0.0
         return cls(
-            h, near, float(before), np.full(n, jerk), ends, np.concatenate((inside, more), axis=1),
-            np.concatenate((rows.limits[inner], bound), axis=1),
+            h, near, float(before), np.full(n, jerk), ends, linear, limits, first,
             (ends[:, 1] - ends[:, 0]) / h[:, None], np.ascontiguousarray(np.moveaxis(at, 0, 1)),
-            np.array(rests).reshape(-1, 2), order,
-            places, bands,
+            np.array(rests).reshape(-1, 2), order, places, bands,
         )  # fmt: skip
 
     def known(self, m: Floats) -> Floats:
@@ -149,7 +154,8 @@ class SpeedProblem:
     def slacks(self, m: Floats) -> tuple[Floats, Floats, Floats]:
         """What is left of the linear limits and of the jerk, and the w that the jerk goes with."""
         known = self.known(m)
-        linear = self.limits - np.einsum("nkc,nc->nk", self.rows, known)
+        each = known.repeat(np.diff(self.first), axis=0)
+        linear = self.limits - np.einsum("rc,rc->r", self.rows, each)
         w = np.einsum("nkc,nc->nk", self.ends[:, 2:], known)
         k = np.einsum("nc,nc->n", self.change, known)
         with np.errstate(invalid="ignore"):
@@ -159,10 +165,7 @@ class SpeedProblem:
 
     def time(self, m: Floats) -> float:
         """How long it takes [s], but for what lies before a start at a speed."""
-        w = np.einsum("nkc,nc->nk", self.gauss, self.known(m))
-        total = 0.5 * (self.widths[:, None] / np.sqrt(w)).sum()
-        at, weights = self.rests.T
-        return float(total + (weights / np.sqrt(m[at.astype(np.intp)])).sum())
+        return float(motion_time(self.terms, m))
 
     def crawl(self) -> Floats:
         """So slow that every limit is kept strictly; for motions that don't begin at a speed."""
@@ -183,9 +186,7 @@ class SpeedProblem:
         scale = _sizes(self.limits)
         wide, best, least, lost = self, (self, m), np.inf, 0
         for k in range(LOOSER):
-            linear, jerk, _ = self.slacks(m)
-            off = float(np.maximum(-linear / scale, 0.0).sum())
-            off += 0.01 * float(np.maximum(-jerk / self.jerk[:, None], 0.0).sum())
+            off = self.lacks(m)
             if off == 0.0 and self.value(m, 1.0) < np.inf:
                 return self, m
             wide = wide.narrowed(self, m, scale, *((0.3, 1e-6) if k else (0.0, 0.05)))
@@ -194,41 +195,53 @@ class SpeedProblem:
                 best, least = (wide, m), off
             if lost > 8:
                 break
-            m = wide.centred(m, 1e-3 * self.limits.size / self.time(m), NEARER)
+            m = wide.centred(m, 2e-3 * self.asked / self.time(m), NEARER)
         return best
+
+    def lacks(self, m: Floats) -> float:
+        """By what parts of them limits are not kept, in all."""
+        linear, jerk, _ = self.slacks(m)
+        off = float(np.maximum(-linear / _sizes(self.limits), 0.0).sum())
+        return off + 0.01 * float(np.maximum(-jerk / self.jerk[:, None], 0.0).sum())
 
     def narrowed(
         self, true: SpeedProblem, m: Floats, scale: Floats, share: float, least: float
     ) -> SpeedProblem:
         """The problem with limits nearer to the true ones, that are still kept."""
         linear, jerk, _ = self.slacks(m)
-        finite = np.isfinite(self.limits)
-        linear = np.where(finite, linear, 0.0)
-        used, spent = np.where(finite, self.limits, 0.0) - linear, self.jerk - jerk.min(axis=1)
+        used, spent = self.limits - linear, self.jerk - jerk.min(axis=1)
         room = np.maximum(share * linear, least * scale)
         rate = np.maximum(share * (self.jerk - spent), least * true.jerk)
-        limits = np.where(finite, np.maximum(true.limits, used + room), np.inf)
-        return replace(self, limits=limits, jerk=np.maximum(true.jerk, spent + rate))
+        return replace(
+            self,
+            limits=np.maximum(true.limits, used + room),
+            jerk=np.maximum(true.jerk, spent + rate),
+        )
 
     def excess(self, m: Floats, true: SpeedProblem) -> tuple[Floats, Floats]:
         """By what parts linear limits and the jerk of every stretch are beyond true ones, (n,)."""
         linear, jerk, _ = true.slacks(m)
-        return (-linear / _sizes(true.limits)).max(axis=1), -jerk.min(axis=1) / true.jerk
+        beyond = np.maximum.reduceat(-linear / _sizes(true.limits), self.first[:-1])
+        return beyond, -jerk.min(axis=1) / true.jerk
 
     def fastest(self, m: Floats) -> Floats:
         """The fastest from one that keeps every limit strictly."""
-        sharpness = self.limits.size / self.time(m)
-        while True:
-            m = self.centred(m, sharpness)
-            if self.limits.size < DUALITY_GAP * sharpness * self.time(m):
-                return m
-            sharpness *= BARRIER_GROWTH
+        return np.asarray(
+            barrier_limit(
+                self.terms, m, FIRST_SHARPNESS, BARRIER_GROWTH, DUALITY_GAP, MAX_NEWTON_STEPS
+            )
+        )
+
+    @property
+    def asked(self) -> int:
+        """How many limits there are: two of the jerk at three places of each stretch, and rows."""
+        return 6 * self.widths.size + self.limits.size
 
     def value(self, m: Floats, sharpness: float) -> float:
         """What the barrier makes least; inf where a limit isn't kept strictly."""
         return float(barrier_value(self.terms, m, sharpness))
 
-    def centred(self, m: Floats, sharpness: float, rounds: int = MAX_NEWTON_STEPS) -> Floats:
+    def centred(self, m: Floats, sharpness: float, rounds: int) -> Floats:
         """The least of the barrier function from m on, by Newton's method."""
         return np.asarray(barrier_least(self.terms, m, sharpness, rounds))
 
@@ -237,14 +250,14 @@ class SpeedProblem:
         """As the kernels take it."""
         return BarrierTerms(
             self.widths, self.near, self.before, self.jerk, np.ascontiguousarray(self.ends[:, 2:]),
-            np.ascontiguousarray(self.change[:, None]), self.rows, self.limits, self.gauss,
-            self.rests, self.places, self.order, self.bands,
+            self.change, self.rows, self.limits, self.first, self.gauss, self.rests,
+            self.places, self.order, self.bands,
         )  # fmt: skip
 
 
 def _sizes(limits: Floats) -> Floats:
     """What limits are compared with."""
-    return np.asarray(np.where(np.isfinite(limits), np.maximum(np.abs(limits), 1e-6), 1.0))
+    return np.asarray(np.maximum(np.abs(limits), 1e-6))
 
 
 def _joined_ends(
@@ -273,6 +286,19 @@ def _joined_ends(
     else:
         ends[-1, 1, 1:], ends[-1, 4, 1:] = ends[0, 0, :2], ends[0, 2, :2]
     return ends
+
+
+def _joined_rows(
+    widths: Floats, rows: Rows, jerk: float, ends: Floats, start: Rest | Moving | Seam,
+    end: Rest | Even | Seam, inner: slice,
+) -> tuple[Floats, Floats, Ints]:  # fmt: skip
+    """All rows that ask for something, with right-hand sides, and where each stretch's begin."""
+    inside = np.einsum("nkz,nzc->nkc", rows.weights[inner], ends)
+    more, bound = _outer_rows(widths, rows, jerk, ends, start, end)
+    limits = np.concatenate((rows.limits[inner], bound), axis=1)
+    asks = limits < np.inf
+    first = np.concatenate(([0], np.cumsum(asks.sum(axis=1))))
+    return np.concatenate((inside, more), axis=1)[asks], limits[asks], first
 
 
 def _outer_rows(

@@ -25,6 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.timing.crawl import slowed_to_crawl
 from viaspline.trajectory.interior_point import Even, Moving, Rest, Rows, Seam, SpeedProblem
 
 GUESS_STEPS = 400  # of the guess
@@ -133,8 +134,9 @@ def smoothest_from(
     if hint is not None:
         guess = 2.0 * hint[1::2] - 0.5 * (hint[:-1:2] + hint[2::2])
         guesses.insert(0, np.maximum(guess, guesses[0].min()))
-    for guess in guesses:
-        problem, m = tight.settled(guess[1 : tight.widths.size + 1])
+    sought = [guess[1 : tight.widths.size + 1] for guess in guesses]
+    for guess in sorted(sought, key=tight.lacks):  # what is nearly right takes a part of the time
+        problem, m = tight.settled(guess)
         m = problem.fastest(m)
         linear, steep = problem.excess(m, true)
         over, harsh = _passed(linear), _passed(steep)
@@ -171,7 +173,10 @@ def _guess(widths: Floats, start: Moving, end: Rest | Even, brake: float, jerk: 
     places = np.concatenate(([0.0], np.cumsum(widths)))
     middles = 0.5 * (places[1:] + places[:-1])
     v, length = float(np.sqrt(start.square)), float(places[-1])
-    line, squares = _braked(v, start.accel, 1e-2 * v, length, brake, jerk)
+    step = (v / brake + (brake + abs(start.accel)) / jerk) * 2.0 / GUESS_STEPS
+    line, squares = slowed_to_crawl(
+        v, start.accel, 1e-2 * v, length, brake, jerk, step, 4 * GUESS_STEPS
+    )
     at, amid = np.interp(places, line, squares), np.interp(middles, line, squares)
     if isinstance(end, Rest):
         back, rest = _risen(v, length, brake, jerk)
@@ -179,25 +184,6 @@ def _guess(widths: Floats, start: Moving, end: Rest | Even, brake: float, jerk: 
         amid = np.minimum(amid, np.interp(length - middles, back, rest))
     least = 1e-4 * min(start.square, (4.5 * widths[-1] ** 2 * jerk) ** (2.0 / 3.0))
     return np.asarray(np.maximum(2.0 * amid - 0.5 * (at[1:] + at[:-1]), least))
-
-
-def _braked(
-    v: float, a: float, crawl: float, length: float, brake: float, jerk: float
-) -> tuple[list[float], list[float]]:
-    """Distances and v² of a robot that brakes to a crawl, from a speed and an acceleration on."""
-    line, squares, s = [0.0], [v * v], 0.0
-    step = (v / brake + (brake + abs(a)) / jerk) * 2.0 / GUESS_STEPS
-    for _ in range(4 * GUESS_STEPS):
-        wanted = -min(brake, float(np.sqrt(max(jerk * (v - crawl), 0.0))))
-        a += min(max(wanted - a, -jerk * step), jerk * step)
-        new = max(v + a * step, crawl)
-        s += 0.5 * (v + new) * step
-        v = new
-        line.append(s)
-        squares.append(v * v)
-        if v <= crawl or s > length:
-            break
-    return line, squares
 
 
 def _risen(top: float, length: float, brake: float, jerk: float) -> tuple[Floats, Floats]:

@@ -9,6 +9,8 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.mission.world_spec import SpeedZone
+from viaspline.trajectory.coupled import Stage
+from viaspline.trajectory.limited_path import LimitedCubicPath
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.slow_zones import Slow
@@ -70,3 +72,34 @@ def retime_part(
     )  # fmt: skip
     moved = law.moved(start)
     return replace(moved, distances=np.minimum(moved.distances, end))
+
+
+def end_of_cells(
+    path: Path, start: float, end: float, limits: Limits, start_speed: float, most: int
+) -> float:
+    """Up to where a part of a path is no more than so many cells of its time law [m].
+
+    Where a path bends sharply, cells are a thousandth as long as elsewhere.
+
+    Args:
+        path: What is driven.
+        start: Distance along it at which the part begins [m].
+        end: At which it ends at the latest [m].
+        limits: Of the time law.
+        start_speed: [m/s].
+        most: Number of cells.
+
+    Example:
+        >>> line = Path([[[0, 0], [10, 0], [20, 0], [30, 0]]], vias=[])
+        >>> end_of_cells(line, 5.0, 15.0, Limits(max_speed=2, max_accel=1), 0.0, 10)
+        7.5
+    """
+    first, last = np.asarray(path.parameter(np.array([start, end]))).tolist()
+    if not first < last:
+        return end
+    part = path.section(first, last)
+    stage = Stage(start=0.0, end=part.length, first=start_speed, last=0.0, top=limits.max_speed)
+    cells, _ = LimitedCubicPath(part, limits).cells(stage)
+    if cells.along.size - 1 <= most:
+        return end
+    return start + float(cells.along[most])

@@ -8,7 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from viaspline.kernels.timing.speed_barrier import BarrierTerms, barrier_least, barrier_value
+from viaspline.kernels.timing.speed_barrier import (
+    BarrierTerms,
+    barrier_least,
+    barrier_limit,
+    barrier_value,
+    motion_time,
+)
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -20,17 +26,17 @@ def random_terms(seed: int) -> tuple[BarrierTerms, np.ndarray]:
     near = np.stack((np.arange(-1, n - 1), np.arange(n), np.arange(1, n + 1)), axis=1)
     near[0, 0], near[-1, 2] = n, n + 1
     shares = rng.uniform(0.05, 0.9, (n, 5, 3))
-    rows = rng.normal(0.0, 1.0, (n, 4, 3))
-    limits = rng.uniform(20.0, 40.0, (n, 4))
-    limits[rng.random((n, 4)) < 0.3] = np.inf
-    rows[:, 0], limits[:, 0] = (0.0, -1.0, 0.0), 0.0  # no coefficient is below 0
+    first = np.concatenate(([0], np.cumsum(rng.integers(1, 5, n))))
+    rows = rng.normal(0.0, 1.0, (first[-1], 3))
+    limits = rng.uniform(20.0, 40.0, first[-1])
+    rows[first[:-1]], limits[first[:-1]] = (0.0, -1.0, 0.0), 0.0  # no coefficient is below 0
     apart = near[:, :, None] - near[:, None, :]
     inside = (near[:, :, None] < n) & (near[:, None, :] < n) & (apart >= 0)
     places = np.where(inside, apart * n + np.where(near < n, near, 0)[:, None, :], 3 * n)
     terms = BarrierTerms(
         rng.uniform(0.2, 2.0, n), near, float(rng.uniform(0.5, 2.0)), rng.uniform(3.0, 9.0, n),
-        shares[:, :3].copy(), rng.normal(0.0, 0.1, (n, 1, 3)), rows, limits, shares[:, 3:].copy(),
-        np.array([[0.0, 1.5], [n - 1.0, 0.7]]), places, np.arange(n), 3,
+        shares[:, :3].copy(), rng.normal(0.0, 0.1, (n, 3)), rows, limits, first,
+        shares[:, 3:].copy(), np.array([[0.0, 1.5], [n - 1.0, 0.7]]), places, np.arange(n), 3,
     )  # fmt: skip
     m = rng.uniform(0.5, 2.0, n)
     while not numpy_value(terms, m, 1.0) < np.inf:
@@ -41,11 +47,12 @@ def random_terms(seed: int) -> tuple[BarrierTerms, np.ndarray]:
 
 def numpy_value(terms: BarrierTerms, m: np.ndarray, sharpness: float) -> float:
     known = np.append(m, (terms.before, 0.0))[terms.near]
-    linear = (terms.limits - np.einsum("nkc,nc->nk", terms.rows, known)).ravel()
+    each = known.repeat(np.diff(terms.first), axis=0)
+    linear = terms.limits - np.einsum("rc,rc->r", terms.rows, each)
     squares = np.einsum("nkc,nc->nk", terms.squares, known)
     if (m <= 0.0).any() or (squares < 0.0).any():
         return np.inf
-    used = (terms.change @ known[:, :, None])[:, 0] * np.sqrt(squares)
+    used = np.einsum("nc,nc->n", terms.change, known)[:, None] * np.sqrt(squares)
     jerk = np.concatenate((terms.jerk[:, None] - used, terms.jerk[:, None] + used))
     if (linear <= 0.0).any() or (jerk <= 0.0).any():
         return np.inf
@@ -54,7 +61,7 @@ def numpy_value(terms: BarrierTerms, m: np.ndarray, sharpness: float) -> float:
         return np.inf
     time = 0.5 * (terms.widths[:, None] / np.sqrt(at)).sum()
     time += (terms.rests[:, 1] / np.sqrt(m[terms.rests[:, 0].astype(int)])).sum()
-    return float(sharpness * time - np.log(linear[np.isfinite(linear)]).sum() - np.log(jerk).sum())
+    return float(sharpness * time - np.log(linear).sum() - np.log(jerk).sum())
 
 
 @given(seeds, st.floats(1e-2, 1e3))
@@ -88,3 +95,21 @@ def test_scipy_finds_nothing_lower_near_the_least_of_the_barrier(
         options={"xatol": 1e-9, "fatol": 1e-10, "maxiter": 400},
     )  # fmt: skip
     assert found.fun >= value - 1e-5 * (1.0 + abs(value))
+
+
+@given(seeds)
+@settings(deadline=None, max_examples=30)
+def test_a_sharper_barrier_keeps_less_of_the_time_and_no_limit_less(seed: int) -> None:
+    terms, m = random_terms(seed)
+    rough, fine = (barrier_limit(terms, m, 1.0, 8.0, gap, 60) for gap in (1e-2, 1e-5))
+    assert numpy_value(terms, fine, 1.0) < np.inf
+    times = [motion_time(terms, found) for found in (m, rough, fine)]
+    assert times[0] * (1 + 1e-9) >= times[1] * (1 - 1e-9) >= times[2] * (1 - 2e-9)
+
+
+@given(seeds)
+@settings(deadline=None, max_examples=30)
+def test_the_barriers_value_grows_with_its_sharpness_by_the_time(seed: int) -> None:
+    terms, m = random_terms(seed)
+    time = numpy_value(terms, m, 3.0) - numpy_value(terms, m, 2.0)
+    assert np.isclose(motion_time(terms, m), time, rtol=1e-9, atol=1e-9)

@@ -96,3 +96,18 @@ def test_in_parts_a_drive_takes_no_longer_than_by_one_law(mission_of: Make) -> N
     planned = Navigator(mission_of(*points, **limit)).trajectory.duration
     navs = drive(mission_of(*points, sensor=LIDAR, **limit))
     assert len(navs) * STEP <= planned * 1.03 + 0.5
+
+
+def test_where_a_path_bends_at_once_a_law_under_way_has_few_points_and_is_no_slower() -> None:
+    """A law had 1,860 while its part ended by its length alone; the drive took 18.9 s."""
+    robot = {
+        "max_speed_mps": 0.9, "max_accel_mps2": 0.6, "max_jerk_mps3": 2.0, "sensor": LIDAR,
+        "max_yaw_accel_degps2": 45.0, "max_lateral_accel_mps2": 1.4,
+    }  # fmt: skip
+    route = {"start": [0, 0], "via": [[4, 0], [4.2, 0.4]], "goal": [0, 1]}
+    data = {"world": {}, "robot": robot, "route": route, "spline": {"tension": 0.93}}
+    navs = drive(Mission.model_validate(data))
+    assert navs[-1].reached, navs[-1].reason
+    renewed = [b.trajectory for a, b in pairwise(navs) if b.trajectory is not a.trajectory]
+    assert max(law.times.size for law in renewed) < 1000
+    assert len(navs) * STEP <= 18.9 * 1.03

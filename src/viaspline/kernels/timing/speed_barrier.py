@@ -18,7 +18,12 @@ from viaspline.kernels.jit import inlined, inner, kernel
 LEAST_DROP = 1e-8  # of the barrier in a step that is worth it, as a part of 1 + its value
 LEAST_PART = 1e-8  # of a step
 KEPT_DROP = 0.1  # part of what a step promises that it has to keep
+LEAST_PRODUCT, MOST_PRODUCT = 1e-150, 1e150  # of what is left, before its logarithm is taken
 REGULAR = 1e-14  # part of every entry of a matrix's diagonal that is added to it
+
+
+Sums = tuple[float, float, float, float, float, float, float, float, float]
+"""Of a stretch: a gradient by its three coefficients, and half of the second derivative."""
 
 
 class BarrierTerms(NamedTuple):
@@ -30,9 +35,10 @@ class BarrierTerms(NamedTuple):
         before: The coefficient of the stretch before all of these [m²/s²].
         jerk: Limits of it [m/s³], shape (n,).
         squares: v² at the start, in the middle and at the end, shape (n, 3, 3).
-        change: da/ds, shape (n, 1, 3).
-        rows: What is limited, shape (n, k, 3).
-        limits: By how much, shape (n, k); inf where a row is empty.
+        change: da/ds, shape (n, 3).
+        rows: What is limited, those of each stretch behind each other, shape (r, 3).
+        limits: By how much, shape (r,).
+        first: The first row of every stretch, and how many there are, shape (n + 1,).
         gauss: v² at two places of every stretch, shape (n, 2, 3).
         rests: Of stretches beside a rest: the one that moves next to it, and the weight of its
             coefficient in the time, 3 h / sqrt(share), shape (r, 2).
@@ -50,6 +56,7 @@ class BarrierTerms(NamedTuple):
     change: Floats
     rows: Floats
     limits: Floats
+    first: Ints
     gauss: Floats
     rests: Floats
     places: Ints
@@ -58,60 +65,67 @@ class BarrierTerms(NamedTuple):
 
 
 @inlined
-def _dot(rows: Floats, i: int, k: int, known: Floats) -> float:
-    """A row of a stretch with what it knows."""
-    return rows[i, k, 0] * known[0] + rows[i, k, 1] * known[1] + rows[i, k, 2] * known[2]
+def _known(terms: BarrierTerms, m: Floats, i: int, c: int) -> float:
+    """One of the three coefficients that a stretch knows."""
+    k, n = terms.near[i, c], m.shape[0]
+    return m[k] if k < n else (terms.before if k == n else 0.0)
 
 
-@inner
-def _known(terms: BarrierTerms, m: Floats, i: int, known: Floats) -> None:
-    """The three coefficients that a stretch knows."""
-    n = m.shape[0]
-    for c in range(3):
-        k = terms.near[i, c]
-        known[c] = m[k] if k < n else (terms.before if k == n else 0.0)
+@inlined
+def _row(rows: Floats, k: int, x: float, y: float, z: float) -> float:
+    """A row with the three coefficients."""
+    return rows[k, 0] * x + rows[k, 1] * y + rows[k, 2] * z
+
+
+@inlined
+def _at(rows: Floats, i: int, j: int, x: float, y: float, z: float) -> float:
+    """v² at one of several places of a stretch, by the three coefficients."""
+    return rows[i, j, 0] * x + rows[i, j, 1] * y + rows[i, j, 2] * z
 
 
 @inner
 def _value(terms: BarrierTerms, m: Floats, sharpness: float) -> float:
     """What the barrier makes least; inf where a limit isn't kept strictly."""
-    known, time, logs = np.empty(3), 0.0, 0.0
+    time, logs, left = 0.0, 0.0, 1.0
     for i in range(m.shape[0]):
         if not m[i] > 0.0:
             return np.inf
-        _known(terms, m, i, known)
-        for k in range(terms.limits.shape[1]):
-            if terms.limits[i, k] < np.inf:
-                slack = terms.limits[i, k] - _dot(terms.rows, i, k, known)
-                if not slack > 0.0:
-                    return np.inf
-                logs += math.log(slack)
-        steep = _dot(terms.change, i, 0, known)
+        x, y, z = _known(terms, m, i, 0), _known(terms, m, i, 1), _known(terms, m, i, 2)
+        for k in range(terms.first[i], terms.first[i + 1]):
+            room = terms.limits[k] - _row(terms.rows, k, x, y, z)
+            if not room > 0.0:
+                return np.inf
+            left *= room  # one logarithm of many: it takes as long as five rows
+            if not LEAST_PRODUCT < left < MOST_PRODUCT:
+                logs += math.log(left)
+                left = 1.0
+        steep = _row(terms.change, i, x, y, z)
         for j in range(3):
-            square = _dot(terms.squares, i, j, known)
+            square = _at(terms.squares, i, j, x, y, z)
             room = terms.jerk[i] * terms.jerk[i] - steep * steep * square
             if not (square >= 0.0 and room > 0.0):
                 return np.inf
-            logs += math.log(room)
+            left *= room
+            if not LEAST_PRODUCT < left < MOST_PRODUCT:
+                logs += math.log(left)
+                left = 1.0
         for j in range(2):
-            square = _dot(terms.gauss, i, j, known)
+            square = _at(terms.gauss, i, j, x, y, z)
             if not square > 0.0:
                 return np.inf
             time += 0.5 * terms.widths[i] / math.sqrt(square)
     for r in range(terms.rests.shape[0]):
         time += terms.rests[r, 1] / math.sqrt(m[int(terms.rests[r, 0])])
-    return sharpness * time - logs
+    return sharpness * time - logs - math.log(left)
 
 
 @inlined
-def _curve(
-    rows: Floats, i: int, k: int, first: float, second: float, slope: Floats, local: Floats
-) -> None:  # fmt: skip
-    """Add the derivatives of a function of a row: first · row and second · row rowᵀ."""
-    for c in range(3):
-        slope[c] += first * rows[i, k, c]
-        for d in range(c + 1):
-            local[c, d] += second * rows[i, k, c] * rows[i, k, d]
+def _curved(x: float, y: float, z: float, first: float, second: float, sums: Sums) -> Sums:
+    """Sums with the derivatives of a function of a row: first · row and second · row rowᵀ."""
+    a, b, c, aa, ba, bb, ca, cb, cc = sums
+    p, q, r = second * x, second * y, second * z
+    a, b, c = a + first * x, b + first * y, c + first * z
+    return a, b, c, aa + p * x, ba + p * y, bb + q * y, ca + r * x, cb + r * y, cc + r * z
 
 
 @inner
@@ -120,41 +134,47 @@ def _derivatives(
 ) -> None:
     """Gradient (n,) and a positive definite second derivative, in lower bands laid flat."""
     n = m.shape[0]
-    known, slope, local, tilt = np.empty(3), np.empty(3), np.empty((3, 3)), np.empty((1, 1, 3))
+    rows, squares, change, gauss = terms.rows, terms.squares, terms.change, terms.gauss
+    near, places = terms.near, terms.places
     gradient.fill(0.0)
     bands.fill(0.0)
     for i in range(n):
-        _known(terms, m, i, known)
-        slope.fill(0.0)
-        local.fill(0.0)
-        for k in range(terms.limits.shape[1]):
-            if terms.limits[i, k] < np.inf:
-                slack = terms.limits[i, k] - _dot(terms.rows, i, k, known)
-                _curve(terms.rows, i, k, 1.0 / slack, 1.0 / (slack * slack), slope, local)
-        steep = _dot(terms.change, i, 0, known)
+        x, y, z = _known(terms, m, i, 0), _known(terms, m, i, 1), _known(terms, m, i, 2)
+        sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        for k in range(terms.first[i], terms.first[i + 1]):
+            push = 1.0 / (terms.limits[k] - _row(rows, k, x, y, z))
+            sums = _curved(rows[k, 0], rows[k, 1], rows[k, 2], push, push * push, sums)
+        steep, most = _row(change, i, x, y, z), terms.jerk[i]
         for j in range(3):
-            root = math.sqrt(_dot(terms.squares, i, j, known))
-            for c in range(3):
-                tilt[0, 0, c] = root * terms.change[i, 0, c]
-                tilt[0, 0, c] += 0.5 * steep / root * terms.squares[i, j, c]
-            under, above = terms.jerk[i] - steep * root, terms.jerk[i] + steep * root
-            first = 1.0 / under - 1.0 / above
-            second = 1.0 / (under * under) + 1.0 / (above * above)
-            _curve(tilt, 0, 0, first, second, slope, local)
+            root = math.sqrt(_at(squares, i, j, x, y, z))
+            tilt = 0.5 * steep / root
+            under, above = 1.0 / (most - steep * root), 1.0 / (most + steep * root)
+            p = root * change[i, 0] + tilt * squares[i, j, 0]
+            q = root * change[i, 1] + tilt * squares[i, j, 1]
+            r = root * change[i, 2] + tilt * squares[i, j, 2]
+            sums = _curved(p, q, r, under - above, under * under + above * above, sums)
         for j in range(2):
-            square = _dot(terms.gauss, i, j, known)
+            square = _at(gauss, i, j, x, y, z)
             push = 0.25 * sharpness * terms.widths[i] / (square * math.sqrt(square))
-            _curve(terms.gauss, i, j, -push, 1.5 * push / square, slope, local)
-        for r in range(terms.rests.shape[0]):
-            if int(terms.rests[r, 0]) == i:
-                rest = sharpness * terms.rests[r, 1] / (m[i] * math.sqrt(m[i]))
-                slope[1] -= 0.5 * rest
-                local[1, 1] += 0.75 * rest / m[i]
-        for c in range(3):
-            if terms.near[i, c] < n:
-                gradient[terms.near[i, c]] += slope[c]
-            for d in range(3):
-                bands[terms.places[i, c, d]] += local[max(c, d), min(c, d)]
+            p, q, r = gauss[i, j, 0], gauss[i, j, 1], gauss[i, j, 2]
+            sums = _curved(p, q, r, -push, 1.5 * push / square, sums)
+        a, b, c, aa, ba, bb, ca, cb, cc = sums
+        for k in range(terms.rests.shape[0]):
+            if int(terms.rests[k, 0]) == i:
+                rest = sharpness * terms.rests[k, 1] / (m[i] * math.sqrt(m[i]))
+                b -= 0.5 * rest
+                bb += 0.75 * rest / m[i]
+        gradient[i] += b
+        if near[i, 0] < n:
+            gradient[near[i, 0]] += a
+        if near[i, 2] < n:
+            gradient[near[i, 2]] += c
+        bands[places[i, 0, 0]] += aa
+        bands[places[i, 1, 1]] += bb
+        bands[places[i, 2, 2]] += cc
+        for k, l, both in ((0, 1, ba), (0, 2, ca), (1, 2, cb)):
+            bands[places[i, k, l]] += both
+            bands[places[i, l, k]] += both
 
 
 @inner
@@ -181,34 +201,22 @@ def _solved(bands: Floats, count: int, n: int, right: Floats) -> bool:
     return True
 
 
-@kernel
-def barrier_value(terms: BarrierTerms, m: Floats, sharpness: float) -> float:
-    """What the barrier makes least: sharpness · time - the logarithms of all that is left.
-
-    Args:
-        terms: What is asked.
-        m: Coefficients [m²/s²], shape (n,).
-        sharpness: Of the barrier.
-
-    Returns:
-        inf where a limit isn't kept strictly.
-    """
-    return _value(terms, m, sharpness)
+@inner
+def _time(terms: BarrierTerms, m: Floats) -> float:
+    """How long a motion takes, but for what lies before a start at a speed [s]."""
+    time = 0.0
+    for i in range(m.shape[0]):
+        x, y, z = _known(terms, m, i, 0), _known(terms, m, i, 1), _known(terms, m, i, 2)
+        for j in range(2):
+            time += 0.5 * terms.widths[i] / math.sqrt(_at(terms.gauss, i, j, x, y, z))
+    for r in range(terms.rests.shape[0]):
+        time += terms.rests[r, 1] / math.sqrt(m[int(terms.rests[r, 0])])
+    return time
 
 
-@kernel
-def barrier_least(terms: BarrierTerms, m: Floats, sharpness: float, rounds: int) -> Floats:
-    """The least of the barrier, from coefficients on that keep every limit strictly.
-
-    Args:
-        terms: What is asked.
-        m: Coefficients to begin with [m²/s²], shape (n,).
-        sharpness: Of the barrier.
-        rounds: Newton's steps, at most.
-
-    Returns:
-        The coefficients, (n,).
-    """
+@inner
+def _least(terms: BarrierTerms, m: Floats, sharpness: float, rounds: int) -> Floats:
+    """The least of the barrier, from coefficients on that keep every limit strictly."""
     n = m.shape[0]
     m, new = m.copy(), np.empty(n)
     gradient, right, step = np.empty(n), np.empty(n), np.empty(n)
@@ -239,3 +247,74 @@ def barrier_least(terms: BarrierTerms, m: Floats, sharpness: float, rounds: int)
             break
         m, new, value = new, m, least
     return m
+
+
+@kernel
+def barrier_value(terms: BarrierTerms, m: Floats, sharpness: float) -> float:
+    """What the barrier makes least: sharpness · time - the logarithms of all that is left.
+
+    Args:
+        terms: What is asked.
+        m: Coefficients [m²/s²], shape (n,).
+        sharpness: Of the barrier.
+
+    Returns:
+        inf where a limit isn't kept strictly.
+    """
+    return _value(terms, m, sharpness)
+
+
+@kernel
+def motion_time(terms: BarrierTerms, m: Floats) -> float:
+    """How long a motion takes, but for what lies before a start at a speed [s].
+
+    Args:
+        terms: What is asked.
+        m: Coefficients [m²/s²], above 0, shape (n,).
+
+    Returns:
+        nan or inf where the robot doesn't get on.
+    """
+    return _time(terms, m)
+
+
+@kernel
+def barrier_least(terms: BarrierTerms, m: Floats, sharpness: float, rounds: int) -> Floats:
+    """The least of the barrier, from coefficients on that keep every limit strictly.
+
+    Args:
+        terms: What is asked.
+        m: Coefficients to begin with [m²/s²], shape (n,).
+        sharpness: Of the barrier.
+        rounds: Newton's steps, at most.
+
+    Returns:
+        The coefficients, (n,).
+    """
+    return _least(terms, m, sharpness, rounds)
+
+
+@kernel
+def barrier_limit(
+    terms: BarrierTerms, m: Floats, first: float, growth: float, gap: float, rounds: int
+) -> Floats:
+    """Coefficients of the fastest motion, from some on that keep every limit strictly.
+
+    Args:
+        terms: What is asked.
+        m: Coefficients to begin with [m²/s²], shape (n,).
+        first: How sharp the barrier is at first, times what is asked over the time,
+        growth: and by what it gets sharper,
+        gap: until it keeps no more than this part of the time.
+        rounds: Newton's steps each time, at most.
+
+    Returns:
+        The coefficients, (n,).
+    """
+    asked = 6.0 * m.shape[0] + terms.limits.shape[0]  # of the jerk at three places, either way
+    sharpness = first * asked / _time(terms, m)
+    while True:
+        m = _least(terms, m, sharpness, rounds)
+        if not asked >= gap * sharpness * _time(terms, m):
+            return m
+        sharpness *= growth

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from viaspline.curve.path import Path
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
@@ -17,6 +19,8 @@ from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.perception.belief import MIN_DISC_RADIUS_M
 from viaspline.trajectory.coupled import is_coupled
 from viaspline.trajectory.limits import Limits
+from viaspline.trajectory.part import end_of_cells
+from viaspline.trajectory.trajectory import Trajectory
 
 PART_RATIO, PART_S = 2.0, 3.0
 """Where laws are dear a new one reaches so many stopping distances ahead, and what the robot
@@ -25,6 +29,13 @@ drives in so long a time [s],"""
 LEAST_PART_M = 0.8 * MIN_DISC_RADIUS_M
 """but no less than this, which is less than the smallest cell that a robot probes: one that stands
 stays there, and one that stops there does [m];"""
+
+MOST_CELLS = 250
+"""With a limit of the jerk a new one has no more cells than this, each of which takes a tenth of a
+millisecond and more: where a path bends sharply they are tenths of a millimetre long,"""
+
+STOP_ROOM = 2.0
+"""unless it has more of them on so many times the way on which the robot stops at the latest;"""
 
 RENEWAL_S = 0.5
 """and is found anew so much before it has to brake for its end [s]."""
@@ -53,6 +64,28 @@ def reach_ahead(task: DriveTask, schedule: Schedule) -> float:
     if is_in_parts(task.limits, schedule.path):
         return PART_RATIO * _stopping_distance(task) + PART_S * task.limits.max_speed
     return reach_of_all(schedule)
+
+
+def dense_until(
+    task: DriveTask, path: Path, distance: float, end: float, motion: tuple[float, float]
+) -> float:
+    """Where a new time law ends that would have too many cells on its way to its end [m].
+
+    Args:
+        task: What is asked of the drive.
+        path: What is driven.
+        distance: Where the law begins [m].
+        end: Where it ends at the latest [m].
+        motion: Speed and acceleration where it begins [m/s], [m/s²].
+    """
+    limits, (speed, accel) = task.limits, motion
+    if limits.max_jerk is None:
+        return end
+    time = speed / limits.brake + (limits.brake + abs(accel)) / limits.max_jerk
+    short = distance + max(STOP_ROOM * speed * time, LEAST_PART_M)
+    if short >= end:
+        return end
+    return max(end_of_cells(path, distance, end, limits, speed, MOST_CELLS), short)
 
 
 def reach_of_all(schedule: Schedule) -> float:
@@ -84,8 +117,16 @@ def renewed_at(task: DriveTask, knowledge: Knowledge, schedule: Schedule) -> flo
         return math.inf
     if not in_parts:
         return float(law.time_at(DRIVEN_RATIO * first + (1.0 - DRIVEN_RATIO) * end))
-    left = _stopping_distance(task) + RENEWAL_S * task.limits.max_speed
-    return float(law.time_at(max(end - left, first)))
+    return _brakes_at(law, task.limits) - RENEWAL_S
+
+
+def _brakes_at(law: Trajectory, limits: Limits) -> float:
+    """When a robot has to brake at the soonest for the end of its time law [s]."""
+    times, jerk = law.speeds / limits.brake, limits.max_jerk
+    if jerk is not None:  # one that is slow never brakes as hard as it can
+        soft = law.speeds < limits.brake**2 / jerk
+        times = np.where(soft, 2.0 * np.sqrt(law.speeds / jerk), times + limits.brake / jerk)
+    return float(law.times[int(np.argmax(law.times + times >= law.end_time))])
 
 
 def is_due(task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule) -> bool:

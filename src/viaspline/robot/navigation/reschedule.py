@@ -28,6 +28,7 @@ from viaspline.robot.navigation.facing import facing_at, turn_to
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.law_horizon import (
     LEAST_PART_M,
+    dense_until,
     is_in_parts,
     reach_ahead,
     renewed_at,
@@ -177,6 +178,8 @@ def trajectory_within_sight(
     certain = certain_until(knowledge.belief, distance, schedule, path, required, shared)
     ahead = reach_ahead(task, schedule) if reach is None else reach
     end = min(certain, schedule.held_at, distance + ahead)
+    if is_in_parts(task.limits, path) and not len(knowledge.moving):
+        end = dense_until(task, path, distance, end, (speed, accel))
     end = max(end, at_least, distance)  # a stop that lies behind would be none
     stops = [Station(turn) for turn in turns if turn > distance + SAME_PLACE_M]
     stops += [
