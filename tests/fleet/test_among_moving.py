@@ -127,6 +127,21 @@ def test_among_things_that_move_a_drive_keeps_to_the_clock_and_delays_are_refuse
         FleetNavigator(plan)
 
 
+def test_a_drive_by_the_clock_is_where_the_plan_has_it_between_nodes_too() -> None:
+    """Of laws that change their acceleration it was millimetres off."""
+    data = fleet_of(*CROSSING, motion=straight((10.0, -30.0), (0.0, 1.0))).model_dump(
+        mode="json", by_alias=True, exclude_none=True
+    )
+    data["robots"]["cart"]["max_jerk_mps3"] = 0.8
+    plan = plan_fleet(Fleet.model_validate(data))
+    run = simulate_fleet(plan.fleet, Delays(), plan)
+    assert plan.plans
+    for name, one in plan.plans.items():
+        times = np.arange(-1.0, one.trajectory.end_time + 1.0, 0.01)
+        off = np.abs(run.distance_at(name, times) - one.trajectory.distance_at(times))
+        assert off.max() < 1e-9
+
+
 def test_by_priority_alone_robots_keep_clear_of_what_moves() -> None:
     motion = straight((12.0, -12.0), (0.0, 2.0))
     asked = fleet_of(*CROSSING, motion=motion)

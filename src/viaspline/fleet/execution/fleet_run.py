@@ -6,7 +6,8 @@ Tested through ``fleet/execution/test_simulate_fleet``.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
@@ -23,6 +24,7 @@ from viaspline.presentable.moving_value import MovingValue
 from viaspline.presentable.named_columns import Table, named_columns, stacked_tables
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
+from viaspline.trajectory.trajectory import Trajectory
 
 USUAL_STEP_S = 0.1
 
@@ -72,6 +74,8 @@ class FleetRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
         laws: When each robot was where on these: exactly what was driven.
         required: The separation that the plan keeps [m].
         end_s: When the simulation ended [s].
+        by_clock: The laws of those that drove by the clock of their plan, by name; their
+            acceleration may change between nodes as well.
     """
 
     arrivals: dict[str, float]
@@ -82,6 +86,7 @@ class FleetRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
     laws: FleetLaws
     required: float
     end_s: float
+    by_clock: Mapping[str, Trajectory] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return (
@@ -146,6 +151,8 @@ class FleetRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
         """
         courses, laws = self.courses.packed, self.laws.packed
         robot = index_of(self.names, name)
+        if name in self.by_clock:
+            return np.asarray(self.by_clock[name].distance_at(times))
         nodes = slice(int(courses.first[robot]), int(courses.first[robot + 1]))
         along, arrive, leave = courses.distance[nodes], laws.arrive[nodes], laws.leave[nodes]
         square = laws.speed[nodes] ** 2

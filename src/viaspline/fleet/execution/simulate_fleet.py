@@ -103,6 +103,7 @@ def _by_the_clock(plan: FleetPlan) -> FleetRun:
         laws=plan.laws,
         required=plan.fleet.separation_m,
         end_s=max(arrivals.values(), default=0.0),
+        by_clock={name: one.trajectory for name, one in plan.plans.items()},
     )
 
 
