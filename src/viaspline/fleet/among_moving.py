@@ -13,7 +13,7 @@ from dataclasses import replace
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.relay_paths import relay_paths
-from viaspline.fleet.relaid_fleet import ROOMS_M, driven_alone
+from viaspline.fleet.relaid_fleet import NEXT_ROOMS_M, ROOM_M, driven_alone
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.time_paths import Timing
 from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
@@ -97,10 +97,12 @@ def _relaid(
     ranks = {one.name: one.priority for one in timed.ways.members}
     names = sorted(met, key=lambda name: -ranks[name])
     failed: dict[str, tuple[str, str]] = {}
-    for room in ROOMS_M:
+    room: float | None = ROOM_M
+    while room is not None:
         wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
         found = relay_paths(wider, fixed, names)
         failed = {one.name: (one.reason, one.remedy) for one in found.not_served}
+        room = NEXT_ROOMS_M.get((room, not failed))
         if not failed:
             kept = _as_laid(fleet, timed, fixed, found.plans)
             if kept is not None:

@@ -29,9 +29,12 @@ from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.whole_plan import fastest_law, stations
 
-ROOMS_M = (0.3, 0.6, 0.15, 0.0)
-"""So much farther apart than they must be robots are laid, if they can, one value after the other
-[m]: the boxes of crossings, which are half a metre long, tell who passes first if there is room."""
+ROOM_M = 0.3
+"""So much farther apart than they must be robots are laid at first [m]: the boxes of crossings,
+which are half a metre long, tell who passes first if there is room."""
+NEXT_ROOMS_M = {(0.3, True): 0.6, (0.3, False): 0.0, (0.0, True): 0.15}
+"""How much farther apart then [m], after such a room in which all could be laid, or not all: who
+finds no path with little room finds none with more, and where that isn't it, more may help."""
 PATHS_A_LAYING = 24
 """What one laying of a robot among others that move costs, in layings of a path."""
 
@@ -55,10 +58,12 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet, budget: float) -> TimedFleet |
     best: TimedFleet | None = None
     cost = max(laying_cost(ways.planar[robot]) for robot in blocked)
     left = int(budget / (PATHS_A_LAYING * cost))
-    for room in ROOMS_M:
+    room: float | None = ROOM_M
+    while room is not None:
         wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
         relaid = relay_paths(wider, fixed, names, left)
         found, left = relaid.plans, left - relaid.layings
+        room = NEXT_ROOMS_M.get((room, not relaid.not_served))
         if len(found) <= len(fixed):
             continue
         again = _along(fleet, ways, fixed, found)

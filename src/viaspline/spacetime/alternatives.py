@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.mission.shapes.obstacle import Obstacle, Side
 from viaspline.planning.alternatives.solution import Solution
@@ -25,7 +26,8 @@ MAX_PASSINGS = 4
 """How many times a path is led round something that moves at most."""
 
 LOOKED_AROUND = 2.0
-"""So many times the time of the drive it is looked where something is near the path,"""
+"""So many times the time of the drive, and as long as the goal is held, it is looked where
+something is near the path,"""
 
 PLACES_AROUND = 24
 """and at so many instants of that the path is led round it."""
@@ -82,7 +84,7 @@ def alternatives_elsewhere(problem: TimedProblem, taken: Alternative) -> Iterato
     if meeting is None:
         return
     begin = problem.mission.route.depart_s
-    end = begin + LOOKED_AROUND * (taken.free.end_time - begin)
+    end = begin + LOOKED_AROUND * (taken.free.end_time - begin) + problem.mission.route.hold_s
     path, required = taken.solution.path, problem.required
     near = times_near(path, problem.moving, meeting.obstacle, required, (begin, end))
     if not near.size:
@@ -107,7 +109,20 @@ def _met(problem: TimedProblem, taken: Alternative) -> Meeting | None:
     """What is met first by a path that may be led round something more."""
     if len(taken.passings) >= MAX_PASSINGS:
         return None
-    return first_meeting(taken.solution.path, taken.free, problem.moving, problem.required)
+    return meeting_of(problem, taken.solution.path, taken.free)
+
+
+def meeting_of(problem: TimedProblem, path: Path, free: Trajectory) -> Meeting | None:
+    """What a path first meets, under way or where the robot holds its goal.
+
+    Args:
+        problem: What is asked.
+        path: What is driven.
+        free: The law along it, as if nothing moved.
+    """
+    until = free.end_time + problem.mission.route.hold_s
+    span = (free.start_time, until)
+    return first_meeting(path, free, problem.moving, problem.required, span)
 
 
 def _on_either_side(
@@ -147,6 +162,9 @@ def _led_round(
     world = problem.world.with_obstacles(ghosts)
     points = [point.at[:2] for _, point in problem.mission.route.points()]
     if (world.distances_to(len(world) - 1, points) < problem.requirements.required).any():
+        return None
+    squares = problem.squares
+    if squares is not None and not squares.may_join(world, points):
         return None
     try:
         with problem.budget.share(LAID_S) as budget:

@@ -9,16 +9,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.curve.path import Path
-from viaspline.errors import GaveUpError
+from viaspline.errors import GaveUpError, NoPathError
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.method import Found, GaveUp, Outcome
 from viaspline.spacetime.alternatives import (
     Alternative,
     alternatives_elsewhere,
     alternatives_to,
+    meeting_of,
 )
+from viaspline.spacetime.cut_off import is_cut_off
 from viaspline.spacetime.hopeless import check_start
-from viaspline.spacetime.meetings import first_meeting
 from viaspline.spacetime.searched_paths import is_searchable, searched_paths
 from viaspline.spacetime.taken_points import check_points
 from viaspline.spacetime.timed_drive import TimedCandidate, TimedDrive
@@ -64,6 +65,8 @@ def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
     check_points(problem)
     first = Alternative(static, problem.free_law(static.path))
     tried = _Tried().and_then(problem, first, _law(problem, first))
+    if tried.best is None and is_cut_off(problem):
+        raise _cut_off(problem, tried.outcomes, static)
     if tried.is_late(first):
         tried = _searched(problem, tried)
     tried = _beside(problem, first, tried)
@@ -256,18 +259,40 @@ def _given_up(
     if problem.budget.is_spent:
         tried.append(f"no more than {problem.budget.limit:g} s of work allow")
     tried += dict.fromkeys(outcome.reason for outcome in outcomes if not isinstance(outcome, Found))
-    helps = [outcome.would_help for outcome in outcomes if isinstance(outcome, GaveUp)]
-    remedy = next((words for words in helps if words), "depart at another time (route.depart_s)")
-    meeting = first_meeting(
-        static.path, problem.free_law(static.path), problem.moving, problem.required
-    )
-    where = static.path.at_distance(0.0 if meeting is None else meeting.distance)
-    names = () if meeting is None else (problem.moving.name(meeting.obstacle),)
+    names, where = _met_first(problem, static)
     first = f", '{names[0]}' first" if names else ""
     return GaveUpError(
         f"no path was found on which the robot is clear of what moves{first}",
-        where=np.asarray(where).tolist(),
-        remedy=remedy,
+        where=where,
+        remedy=_remedy(outcomes),
         tried=tried,
         obstacles=names,
     )
+
+
+def _cut_off(
+    problem: TimedProblem, outcomes: Sequence[Outcome[Trajectory]], static: Solution
+) -> NoPathError:
+    """The error that what moves cuts the robot off, whatever path it takes."""
+    names, where = _met_first(problem, static)
+    first = f", '{names[0]}' first" if names else ""
+    return NoPathError(
+        f"what moves cuts the robot off from its route, whatever path it takes{first}",
+        where=where,
+        remedy=_remedy(outcomes),
+        obstacles=names,
+    )
+
+
+def _met_first(problem: TimedProblem, static: Solution) -> tuple[tuple[str, ...], list[float]]:
+    """What the path among what stands meets first, if anything, and where [m]."""
+    meeting = meeting_of(problem, static.path, problem.free_law(static.path))
+    where = static.path.at_distance(0.0 if meeting is None else meeting.distance)
+    names = () if meeting is None else (problem.moving.name(meeting.obstacle),)
+    return names, np.asarray(where).tolist()
+
+
+def _remedy(outcomes: Sequence[Outcome[Trajectory]]) -> str:
+    """What would help by the words of the laws that weren't found."""
+    helps = [outcome.would_help for outcome in outcomes if isinstance(outcome, GaveUp)]
+    return next((words for words in helps if words), "depart at another time (route.depart_s)")

@@ -7,17 +7,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import JERK_KNOT_S, TIME_LAW_S, WorkBudget
+from viaspline.spacetime.world_squares import WorldSquares
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
+SQUARES = 2_500
+"""About so many squares tell whether a thing closes the way."""
 AMONG_S = 4.0
 """What may be spent on paths and laws past what moves [s of the reference machine]."""
 
@@ -56,6 +60,11 @@ class TimedProblem:
     def least(self) -> float:
         """Distance that the reference point of any body keeps from what moves [m]."""
         return self.requirements.required
+
+    @cached_property
+    def squares(self) -> WorldSquares | None:
+        """Where the robot may be beside what stands, roughly; None in a world without bounds."""
+        return WorldSquares.over(self.world, SQUARES, self.least)
 
     def free_law(self, path: Path) -> Trajectory:
         """The law that would be driven along a path if nothing moved."""

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from viaspline.errors import PlanningError
 from viaspline.fleet.laying.relay import relay
 from viaspline.fleet.laying.relay_paths import relay_paths
-from viaspline.mission.fleet.fleet import Fleet
+from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 
 APART = 2.0
@@ -118,3 +119,22 @@ def test_who_is_in_the_way_of_one_without_a_path_is_laid_after_it() -> None:
     (left,) = found.not_served
     assert left.reason
     assert left.remedy
+
+
+def test_robots_in_each_others_way_are_not_laid_twice_among_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """They took turns, and each turn was laid anew: half of a minute in a corridor."""
+    walls = [[[-3, y], [43, y], [43, y + 1], [-3, y + 1]] for y in (1.2, -2.2)]
+    world = {"bounds": [-3, -2.2, 43, 2.2], "known": [{"polygon": wall} for wall in walls]}
+    ends = ([10, 0], [30, 0]), ([0, 0], [40, 0]), ([36, 0], [4, 0])
+    laid = []
+
+    def counted(of: Fleet, member: FleetMember, among: Mapping[str, Plan]) -> Plan:
+        laid.append((member.name, frozenset(map(id, among.values()))))
+        return relay(of, member, among)
+
+    monkeypatch.setattr("viaspline.fleet.laying.relay_paths.relay", counted)
+    found = relay_paths(fleet(*ends, world=world), {}, ["r0", "r1", "r2"])
+    assert found.not_served
+    assert found.layings == len(laid) == len(set(laid))

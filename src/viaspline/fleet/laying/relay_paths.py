@@ -65,14 +65,19 @@ def relay_paths(
     failed: dict[str, NotServed] = {}
     turns: Counter[str] = Counter()
     spent = 0
+    laid: dict[tuple[str, frozenset[int]], Plan | PlanningError | GeometryError] = {}
     while waiting and spent < layings:
-        name, spent = waiting.pop(0), spent + 1
-        try:
-            plans = {**plans, name: relay(fleet, members[name], plans)}
-        except (PlanningError, GeometryError) as error:
-            failed[name] = not_served(name, error)
+        name = waiting.pop(0)
+        among = name, frozenset(map(id, plans.values()))
+        if among not in laid:  # who is in each other's way takes turns: the same comes up again
+            laid[among], spent = _laid_or_not(fleet, members[name], plans), spent + 1
+        found = laid[among]
+        if isinstance(found, Plan):
+            plans = {**plans, name: found}
+        else:
+            failed[name] = not_served(name, found)
             turns[name] += 1
-            before = [one for one in _in_the_way(error, plans) if not _is_patrol(members[one])]
+            before = [one for one in _in_the_way(found, plans) if not _is_patrol(members[one])]
             if before and turns[name] <= MAX_TURNS:
                 plans = {key: plan for key, plan in plans.items() if key not in before}
                 waiting = [name, *before, *waiting]
@@ -80,6 +85,16 @@ def relay_paths(
             best = plans
     asked = [key for key in members if key in {*fixed, *names} and key not in best]
     return RelaidPaths(best, tuple(failed.get(key) or _unlaid(key) for key in asked), spent)
+
+
+def _laid_or_not(
+    fleet: Fleet, member: FleetMember, plans: Mapping[str, Plan]
+) -> Plan | PlanningError | GeometryError:
+    """A robot laid among those that are timed, or why it can't be."""
+    try:
+        return relay(fleet, member, plans)
+    except (PlanningError, GeometryError) as error:
+        return error
 
 
 def _is_patrol(member: FleetMember) -> bool:

@@ -122,8 +122,9 @@ def law_among(
     spending = WorkBudget(BUDGET_S) if budget is None else budget
     staying = replace(traffic, hold=hold + course.dwell(course.stage.end))
     legs = LegsSearch.of(course, road, staying)
-    knots, _ = legs.law(spending, halvings)
+    unserved = Unserved(legs, spending)
+    knots, _ = legs.law(spending, halvings, lambda: unserved.is_proven)
     if knots is not None:
         law = course.law(with_fastest_end(legs.search, knots.merged()))
         return Found(law, law.end_time)
-    return explained(Unserved(legs, spending))
+    return explained(unserved)

@@ -6,6 +6,7 @@ Tested through ``trajectory/yielding/test_law_among``.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -71,16 +72,22 @@ class LegsSearch:
                 break
         return step
 
-    def law(self, budget: WorkBudget, halvings: int = HALVINGS) -> tuple[LawKnots | None, bool]:
+    def law(
+        self, budget: WorkBudget, halvings: int = HALVINGS,
+        is_proven: Callable[[], bool] = lambda: False,
+    ) -> tuple[LawKnots | None, bool]:  # fmt: skip
         """The knots of a law, and whether nothing is left of any lattice that was tried.
 
         Args:
             budget: What may be spent.
             halvings: How often the step is halved where nothing was found.
+            is_proven: Asked before that, whether there is no law.
         """
         onset = self.course.onset()
         step, is_closed = self.first_step(), True
-        for _ in range(1 + halvings):
+        for k in range(1 + halvings):
+            if k > 0 and is_proven():
+                return None, True
             knots, closed = self._on_steps(onset, step, budget)
             if knots is not None:
                 return onset.followed_by(knots), closed

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -66,12 +67,11 @@ class Unserved:
 
     def outcome(self) -> Refusal | GaveUp:
         """That there is none, if that can be proven; else that none was found."""
-        reached, pitch, step = self._reached()
+        reached, pitch, step = self._reached
         watched = self._course.static.start_time + reached.last_alive * step
         remedy = self._remedy()
-        is_alive = reached.last_alive >= self._steps(step) - 1
-        is_cut = reached.step < self._steps(step)
-        if is_cut or reached.can_arrive or (is_alive and self._still() == math.inf):
+        is_alive = self._is_alive
+        if not self.is_proven:
             return GaveUp(
                 ("waiting, slowing down and passing before on a lattice of times and speeds",),
                 remedy or ELSEWHERE,
@@ -97,6 +97,20 @@ class Unserved:
             )
         return Refusal(f"{reason}; {remedy}" if remedy else reason)
 
+    @property
+    def is_proven(self) -> bool:
+        """Whether there is no law for a robot without inertia either."""
+        reached, _, step = self._reached
+        is_cut = reached.step < self._steps(step)
+        goes_on = self._is_alive and self._still() == math.inf
+        return not (is_cut or reached.can_arrive or goes_on)
+
+    @property
+    def _is_alive(self) -> bool:
+        """Whether the robot may be somewhere as long as it is looked at what moves."""
+        reached, _, step = self._reached
+        return reached.last_alive >= self._steps(step) - 1
+
     def _steps(self, step: float) -> int:
         return math.ceil(self._watched() / step)
 
@@ -117,6 +131,7 @@ class Unserved:
         still = float(last[:, BEGINS].max())
         return still if still < self._course.static.start_time + MAX_WATCHED_S else math.inf
 
+    @cached_property
     def _reached(self) -> tuple[Reached, float, float]:
         """How far a robot without inertia comes; the pitch [m] and the step [s] of that."""
         course, road = self._course, self.legs.search.road
