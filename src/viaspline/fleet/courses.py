@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -137,6 +137,21 @@ def fleet_path(plan: AnyPlan, separation: float, *knots: Floats) -> FleetPath:
         body = (flying.radius, flying.half_height, kept)
         return FleetPath(plan.path, cuts, flying.radius + kept, body)
     return FleetPath(plan.path, cuts, robot.outer_radius + plan.tracking_error + half)
+
+
+def path_cut_at(plan: AnyPlan, separation: float, nodes: Floats) -> FleetPath:
+    """The path of a plan, to be cut at the very nodes of a course of it.
+
+    It is cut as well where its law changes far from all of them. Of nodes that differ by rounding
+    alone, as those of two laws that were reckoned otherwise, each is kept.
+
+    Args:
+        plan: With its time law.
+        separation: Free space between any two bodies [m].
+        nodes: Distances, not decreasing [m], (k,).
+    """
+    path = fleet_path(plan, separation)
+    return replace(path, knots=_joined(nodes, path.knots))
 
 
 def courses_along(names: Sequence[str], paths: Sequence[FleetPath]) -> FleetCourses:

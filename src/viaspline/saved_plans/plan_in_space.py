@@ -34,9 +34,12 @@ from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import along_limits, retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.limits import Station
+from viaspline.trajectory.trajectory import Trajectory
 
 StopsOn = Callable[[SpatialProblem, Path], Iterable[Station]]
 """Where the robot of a problem has to stop on a path."""
+LawAlone = Callable[[SpatialPlan], Trajectory]
+"""The fastest law along the path of a plan, whose law is that of all of it at once."""
 HeadingsOn = Callable[[SpatialProblem, Path], YawProfile]
 """Where the robot of a problem looks along a path."""
 
@@ -64,7 +67,8 @@ def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
 
 def flight_as_if_still(
     plan: PlanFile, mission: Mission, stops_on: StopsOn = stops_of,
-    headings_on: HeadingsOn = headings_of, *, comes_again: bool = False,
+    headings_on: HeadingsOn = headings_of, law_alone: LawAlone = lambda plan: plan.trajectory, *,
+    comes_again: bool = False,
 ) -> SpatialPlan:  # fmt: skip
     """The plan of a file, of which all is proven but how far it is from what moves.
 
@@ -73,13 +77,14 @@ def flight_as_if_still(
         mission: As it was planned.
         stops_on: Where its robot has to stop on a path.
         headings_on: Where it looks along a path.
+        law_alone: How it flies if it is alone.
         comes_again: Whether all of its laps are the first one again, which alone is proven.
 
     Raises:
         SavedPlanError: As ``plan_in_space``.
     """
     alone = _alone(plan, mission, stops_on, headings_on, comes_again=comes_again)
-    free = alone.trajectory
+    free = law_alone(alone)
     law = law_of_file(plan, alone.path, free, along_limits(alone.limits), free.stations)
     return replace(alone, trajectory=law)
 

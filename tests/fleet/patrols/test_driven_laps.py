@@ -11,13 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
-from viaspline.fleet.patrols.driven_laps import (
-    driven_laps,
-    on_nodes,
-    repeated_law,
-    seams_of,
-    set_out,
-)
+from viaspline.fleet.patrols.driven_laps import driven_laps, on_nodes, seams_of
+from viaspline.fleet.patrols.repeated_laws import repeated_law, set_out
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 

@@ -170,6 +170,22 @@ def test_a_saved_plan_of_such_patrols_is_loaded_and_equal(
     assert again == crossing
 
 
+def test_one_that_turns_back_at_its_start_is_loaded_and_equal(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It stood too short for its turn there, and alone it was timed otherwise than planned."""
+    monkeypatch.setattr("viaspline.report.fleet_results.fleet_picture", lambda plan, name: b"")
+    slow = {**DRONE, "max_vertical_accel_mps2": 0.7, "max_lateral_accel_mps2": 0.8}
+    there = patrol([30.73, 14.72], [2.93, 16.67, 13.26], up=9.11)
+    farther = patrol([35.2, 49.26], [23.02, 1.98, 19.5], up=12.0)
+    named = [{"name": f"r{k}", "robot": "d", **one} for k, one in enumerate((there, farther))]
+    data = {"world": WORLD, "separation_m": SEPARATION, "robots": {"d": slow}, "fleet": named}
+    plan = vs.plan_fleet(vs.Fleet.model_validate(data))
+    assert plan.served
+    plan.save(tmp_path)
+    assert vs.load_fleet_plan(tmp_path) == plan
+
+
 def test_a_navigator_leads_them_longer_than_their_plans(crossing: vs.FleetPlan) -> None:
     plan = crossing
     assert plan.patrols is not None

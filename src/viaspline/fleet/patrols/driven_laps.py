@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 
 from viaspline.curve.path import Path
-from viaspline.errors import GeometryError
 from viaspline.fleet.courses import AnyPlan, FleetCourses
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.patrols.repeated_laws import (
+    SAME_M,
+    ends_at,
+    laws_in_a_row,
+    repeated_law,
+    set_out,
+)
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.planning.plan_drive import repeated
@@ -20,15 +25,13 @@ from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import retime_in_space
+from viaspline.space.timing.spatial_limits import SpatialLimits
+from viaspline.space.timing.yaw_profile import YawProfile
+from viaspline.space.timing.yaw_speeds import with_yaw_turns
 from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.whole_plan import fastest_law, stations
-
-SAME_M = 1e-6
-"""Places on a path that are no farther apart are one."""
-SAME_S = 1e-9
-"""Times that are no farther apart are one."""
 
 
 def driven_laps(lap: AnyPlan, laps: int) -> AnyPlan:
@@ -52,12 +55,11 @@ def driven_laps(lap: AnyPlan, laps: int) -> AnyPlan:
     asked = lap.mission
     route = asked.route.model_copy(update={"laps": laps})
     mission = asked.model_copy(update={"route": route})
-    path, zones = repeated(lap.path, laps), asked.world.speed_zones
+    path = repeated(lap.path, laps)
     if isinstance(lap, SpatialPlan):
         problem = replace(spatial_problem_of(asked), laps=laps)
         yaw = headings_of(problem, path)
-        stops = tuple(flown_stops_on_laps(problem, path))
-        law = retime_in_space(path, lap.limits, stops, yaw, zones=zones)
+        law = law_of_flown_laps(path, problem, lap.limits, yaw)
         airborne = (0.0, path.length)
         return replace(lap, mission=mission, path=path, airborne=airborne, yaw=yaw, trajectory=law)
     law = fastest_law(path, mission, stops_on_laps(path, mission))
@@ -92,6 +94,46 @@ def law_of_laps(path: Path, mission: Mission, stops: Sequence[Station]) -> Traje
     return repeated_law(law, seams, law.duration)
 
 
+def law_of_flown_laps(
+    path: Path, problem: SpatialProblem, limits: SpatialLimits, yaw: YawProfile
+) -> Trajectory:
+    """The fastest law of a patrol in space, which stops after each lap: the same in all laps.
+
+    A lap is timed by itself: where limits couple speed and acceleration, a law depends on how its
+    path is cut, and laps behind each other are each cut otherwise.
+
+    Args:
+        path: All of its laps, each like the first one.
+        problem: With so many laps.
+        limits: Of the robot.
+        yaw: The headings along the path.
+    """
+    seams, zones = seams_of(path, problem.laps), problem.zones
+    stops = with_yaw_turns(tuple(flown_stops_on_laps(problem, path)), yaw, limits.yaw_rate)
+    ends = int(yaw.distances.searchsorted(seams[1] - SAME_M)) + 1
+    looks = YawProfile(np.append(yaw.distances[: ends - 1], seams[1]), yaw.headings[:ends])
+    a_lap = Path(path.spans[: len(path.spans) // problem.laps], vias=[])
+    own = tuple(stop for stop in stops if stop.distance < seams[1] - SAME_M)
+    at_last = tuple(
+        replace(stop, distance=float(seams[1]))
+        for stop in stops
+        if stop.distance > seams[-1] - SAME_M
+    )
+    law, last = (
+        retime_in_space(a_lap, limits, one, looks, zones=zones) for one in (own, own + at_last)
+    )
+    between = max(
+        (stop.dwell for stop in stops if abs(stop.distance - seams[1]) <= SAME_M), default=0.0
+    )
+    parts = [law if problem.laps > 1 else last]
+    for k in range(1, problem.laps):
+        part = set_out(law if k < problem.laps - 1 else last).moved(float(seams[k]))
+        parts.append(part.delayed(parts[-1].end_time + between - part.start_time))
+    return laws_in_a_row(
+        [ends_at(part, end) for part, end in zip(parts, seams[1:].tolist(), strict=True)]
+    )
+
+
 def flown_stops_on_laps(problem: SpatialProblem, path: Path) -> list[Station]:
     """Where a patrol in space hovers: at its stations, and at its start after each lap.
 
@@ -124,105 +166,6 @@ def seams_of(path: Path, laps: int, before: int = 0) -> Floats:
     """
     joints = before + np.arange(laps + 1) * ((len(path.spans) - before) // laps)
     return np.asarray(path.distance(joints.astype(float)), dtype=np.float64)
-
-
-def set_out(law: Trajectory) -> Trajectory:
-    """A time law without what it waits at its start."""
-    waits = int(law.distances.searchsorted(law.distances[0], side="right")) - 1
-    pieces = slice(waits, None)
-    return replace(
-        law,
-        distances=law.distances[waits:],
-        speeds=law.speeds[waits:],
-        times=law.times[waits:],
-        accelerations=law.accelerations[pieces],
-        changes=None if law.changes is None else law.changes[pieces],
-        jerks=None if law.jerks is None else law.jerks[pieces],
-    )
-
-
-def repeated_law(law: Trajectory, seams: Floats, period: float) -> Trajectory:
-    """A time law from rest to rest, driven again every period.
-
-    Args:
-        law: It begins at 0 m when its robot sets out, and takes no longer than the period.
-        seams: Where the rounds begin and end [m], (n + 1,).
-        period: [s].
-
-    Raises:
-        GeometryError: The law takes longer.
-
-    Example:
-        >>> from viaspline.trajectory.limits import Limits
-        >>> from viaspline.curve.path import Path
-        >>> from viaspline.trajectory.retime import retime
-        >>> line = Path([[[0, 0], [3, 0], [6, 0], [9, 0]]], vias=[])
-        >>> law = retime(line, Limits(max_speed=1, max_accel=1))
-        >>> twice = repeated_law(law, np.array([0.0, 9.0, 18.0]), 15.0)
-        >>> twice.time_at([4.5, 13.5]).tolist()
-        [5.0, 20.0]
-    """
-    if law.duration > period + SAME_S:
-        raise GeometryError(
-            f"a lap of {law.duration:g} s doesn't fit a period of {period:g} s; give a longer one"
-        )
-    return laws_in_a_row([_moved(law, k, seams, period) for k in range(len(seams) - 1)])
-
-
-def laws_in_a_row(parts: Sequence[Trajectory]) -> Trajectory:
-    """Time laws from rest to rest behind each other, with a halt where one begins later.
-
-    Args:
-        parts: Each begins where the one before ends, and no sooner.
-
-    Example:
-        >>> from viaspline.trajectory.limits import Limits
-        >>> from viaspline.curve.path import Path
-        >>> from viaspline.trajectory.retime import retime
-        >>> line = Path([[[0, 0], [3, 0], [6, 0], [9, 0]]], vias=[])
-        >>> law = retime(line, Limits(max_speed=1, max_accel=1))
-        >>> both = laws_in_a_row([law, law.moved(9.0).delayed(15.0)])
-        >>> both.time_at([4.5, 13.5]).tolist()
-        [5.0, 20.0]
-    """
-    waits = [later.start_time > before.end_time + SAME_S for before, later in pairwise(parts)]
-    firsts = [0, *(0 if wait else 1 for wait in waits)]
-
-    def points(key: str) -> Floats:
-        return np.concatenate(
-            [getattr(part, key)[first:] for part, first in zip(parts, firsts, strict=True)]
-        )
-
-    def pieces(key: str) -> Floats | None:
-        if all(getattr(part, key) is None for part in parts):
-            return None
-        rows = []
-        for k, (part, first) in enumerate(zip(parts, firsts, strict=True)):
-            values = getattr(part, key)
-            values = np.zeros(len(part.times) - 1) if values is None else values
-            rows.append(np.concatenate(([0.0] if k > 0 and first == 0 else [], values)))
-        return np.concatenate(rows)
-
-    accelerations = pieces("accelerations")
-    assert accelerations is not None
-    return replace(
-        parts[0],
-        distances=points("distances"),
-        speeds=points("speeds"),
-        times=points("times"),
-        accelerations=accelerations,
-        changes=pieces("changes"),
-        jerks=pieces("jerks"),
-        stations=tuple(stop for part in parts for stop in part.stations),
-    )
-
-
-def _moved(law: Trajectory, k: int, seams: Floats, period: float) -> Trajectory:
-    """A law by k rounds later; it ends where the next round begins, to the bit."""
-    moved = law.moved(float(seams[k])).delayed(k * period)
-    distances = moved.distances.copy()
-    distances[distances >= seams[k + 1] - SAME_M] = seams[k + 1]
-    return replace(moved, distances=distances)
 
 
 def on_nodes(law: Trajectory, nodes: Floats) -> Trajectory:

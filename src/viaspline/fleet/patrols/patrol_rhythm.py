@@ -20,13 +20,8 @@ from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_along, fleet_path
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.patrols.driven_laps import (
-    driven_laps,
-    repeated_law,
-    seams_of,
-    set_out,
-    write_law,
-)
+from viaspline.fleet.patrols.driven_laps import driven_laps, seams_of, write_law
+from viaspline.fleet.patrols.repeated_laws import repeated_law, set_out
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import standing_laws
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
@@ -50,6 +45,8 @@ MOST_DEPARTURES = 60
 """So many times at which others are back home are tried by one that finds no time before."""
 SAME_S = 1e-9
 """Times that are no farther apart are one."""
+SAME_PLACE_SHARE = 1e-9
+"""Of the way to a place, which is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -278,7 +275,16 @@ class _RoundTiming:
 
 
 def _stay_between(lap: AnyPlan) -> float:
-    """How long a robot has to stand between two laps, beyond its stay at the end of one [s]."""
-    law = lap.trajectory
-    waits = law.duration - set_out(law).duration
-    return max(driven_laps(lap, 2).trajectory.duration + waits - 2.0 * law.duration, 0.0)
+    """How long a robot has to stand between two laps, beyond its stay at the end of one [s].
+
+    Told by the stays themselves: how long laps take differs by how finely they are timed.
+    """
+    twice = driven_laps(lap, 2)
+    between = _stay_at(twice.trajectory, float(seams_of(twice.path, 2)[1]))
+    return max(between - _stay_at(lap.trajectory, lap.path.length), 0.0)
+
+
+def _stay_at(law: Trajectory, place: float) -> float:
+    """How long a law stands at a place of its path [m]: [s]."""
+    times = law.times[np.abs(law.distances - place) <= SAME_PLACE_SHARE * (1.0 + place)]
+    return float(np.ptp(times)) if times.size else 0.0

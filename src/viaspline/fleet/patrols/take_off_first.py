@@ -13,7 +13,8 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.fleet.courses import AnyPlan
-from viaspline.fleet.patrols.driven_laps import laws_in_a_row
+from viaspline.fleet.patrols.driven_laps import law_of_flown_laps
+from viaspline.fleet.patrols.repeated_laws import laws_in_a_row
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.route_spec import EndPoint
 from viaspline.space.spatial_plan import SpatialPlan
@@ -22,6 +23,7 @@ from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.static_plan import fastest_law, headings_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile
+from viaspline.trajectory.trajectory import Trajectory
 
 
 def takes_off(plan: AnyPlan) -> bool:
@@ -78,6 +80,28 @@ def flown_headings_on_laps(problem: SpatialProblem, path: Path) -> YawProfile:
     return after_upright(headings_of(replace(problem, takeoff=None), laps), up)
 
 
+def law_of_patrol_in_space(plan: SpatialPlan) -> Trajectory:
+    """The law of a patrol in space that is alone: its laps, behind what it flies before the first.
+
+    Both are timed each by itself, as they are planned.
+
+    Args:
+        plan: With whatever law.
+    """
+    problem = replace(spatial_problem_of(plan.mission), takeoff=None)
+    rises = takes_off(plan)
+    path = _of_laps(plan.path) if rises else plan.path
+    law = law_of_flown_laps(path, problem, plan.limits, headings_of(problem, path))
+    if not rises:
+        return law.delayed(plan.mission.route.depart_s - law.start_time)
+    return _behind(ascent_of(plan).trajectory, law, plan.airborne[0])
+
+
+def _behind(ascent: Trajectory, laps: Trajectory, up: float) -> Trajectory:
+    """The law of laps right behind that of an ascent [m]."""
+    return laws_in_a_row([ascent, laps.moved(up).delayed(ascent.end_time - laps.start_time)])
+
+
 def on_its_laps(member: FleetMember, lap: AnyPlan) -> FleetMember:
     """A patrol as one that begins where its laps do, once it may be there."""
     if not isinstance(lap, SpatialPlan):
@@ -117,15 +141,14 @@ def after_ascent(laid: SpatialPlan, laps: SpatialPlan) -> SpatialPlan:
     later = [replace(via, u=via.u + 1.0) for via in laps.path.vias[1:]]
     path = Path(np.concatenate([laid.path.spans[:1], laps.path.spans]), [ground, top, *later])
     route = laid.mission.route.model_copy(update={"laps": laps.mission.route.laps})
-    ascent = ascent_of(laid).trajectory
-    law = laps.trajectory.moved(up).delayed(ascent.end_time - laps.trajectory.start_time)
+    law = _behind(ascent_of(laid).trajectory, laps.trajectory, up)
     return replace(
         laps,
         mission=laid.mission.model_copy(update={"route": route}),
         path=path,
         airborne=(up, path.length),
         yaw=after_upright(laps.yaw, up),
-        trajectory=laws_in_a_row([ascent, law]),
+        trajectory=law,
     )
 
 

@@ -18,7 +18,8 @@ from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_along, fleet_path
 from viaspline.fleet.crossings import FleetCrossings, box_owners, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.patrols.driven_laps import SAME_S, set_out, write_law
+from viaspline.fleet.patrols.driven_laps import write_law
+from viaspline.fleet.patrols.repeated_laws import SAME_S, set_out
 from viaspline.fleet.space.courses_with_moving import without_boxes
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import standing_laws

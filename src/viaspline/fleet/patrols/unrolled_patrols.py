@@ -15,15 +15,9 @@ from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.patrols.asked_patrols import AskedPatrols
-from viaspline.fleet.patrols.driven_laps import (
-    driven_laps,
-    laws_in_a_row,
-    repeated_law,
-    seams_of,
-    set_out,
-    write_law,
-)
+from viaspline.fleet.patrols.driven_laps import driven_laps, seams_of, write_law
 from viaspline.fleet.patrols.patrol_rhythm import PatrolRhythm
+from viaspline.fleet.patrols.repeated_laws import laws_in_a_row, repeated_law, set_out
 from viaspline.fleet.patrols.take_off_first import (
     after_ascent,
     ascent_of,

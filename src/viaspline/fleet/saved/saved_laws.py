@@ -15,9 +15,10 @@ import numpy as np
 
 from viaspline.bounded_file import FileKind, read_bytes
 from viaspline.errors import SavedPlanError
-from viaspline.fleet.courses import FleetCourses, courses_along, fleet_path
+from viaspline.fleet.courses import FleetCourses, courses_along, path_cut_at
 from viaspline.fleet.fleet_laws import static_laws
-from viaspline.fleet.patrols.driven_laps import flown_stops_on_laps, on_nodes, stops_on_laps
+from viaspline.fleet.patrols.driven_laps import on_nodes, stops_on_laps
+from viaspline.fleet.patrols.take_off_first import law_of_patrol_in_space
 from viaspline.fleet.relaid_fleet import driven_alone
 from viaspline.fleet.saved.course_record import CourseRecord
 from viaspline.fleet.timing.rides import rides_of
@@ -28,7 +29,6 @@ from viaspline.planner import Plan
 from viaspline.saved_plans.law_within_limits import PROVEN_OFF_M
 from viaspline.saved_plans.plan_file import REMEDY
 from viaspline.space.spatial_plan import SpatialPlan
-from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.whole_plan import fastest_law
 
@@ -84,7 +84,7 @@ class SavedLaws:
         """One that is served: its course is cut anew, and its laws are looked up at the nodes."""
         nodes, name, courses = self._nodes(robot), member.name, self.record.courses.packed
         along = courses.distance[nodes]
-        fresh = courses_along([name], [fleet_path(plan, separation, along)])
+        fresh = courses_along([name], [path_cut_at(plan, separation, along)])
         cut = fresh.packed
         if cut.distance.shape != along.shape or not _near(cut.distance, along):
             raise self._wrong(f"the course of '{name}' isn't cut as its path is")
@@ -167,9 +167,9 @@ def _alone(member: FleetMember, plan: Plan | SpatialPlan) -> Plan | SpatialPlan:
     """A plan with the law that its robot would drive if it were alone."""
     zones = plan.mission.world.speed_zones
     if isinstance(plan, SpatialPlan):
-        stops = plan.trajectory.stations
         if member.mission.route.is_patrol:
-            stops = tuple(flown_stops_on_laps(spatial_problem_of(plan.mission), plan.path))
+            return replace(plan, trajectory=law_of_patrol_in_space(plan))
+        stops = plan.trajectory.stations
         law = retime_in_space(plan.path, plan.limits, stops, plan.yaw, zones=zones)
     elif member.mission.route.is_patrol:
         law = fastest_law(plan.path, plan.mission, stops_on_laps(plan.path, plan.mission))

@@ -13,7 +13,7 @@ from viaspline.bounded_file import is_there
 from viaspline.errors import SavedPlanError
 from viaspline.fleet.among_moving import proven_among
 from viaspline.fleet.patrols.driven_laps import flown_stops_on_laps, law_of_laps, stops_on_laps
-from viaspline.fleet.patrols.take_off_first import flown_headings_on_laps
+from viaspline.fleet.patrols.take_off_first import flown_headings_on_laps, law_of_patrol_in_space
 from viaspline.fleet.saved.fleet_file import FleetFile
 from viaspline.fleet.space.timed_past_moving import past_moving
 from viaspline.fleet.still_world import without_motion
@@ -101,7 +101,7 @@ class SavedRobots:
         if mission.route.is_patrol:
             found = flight_as_if_still(
                 file, self._with_laps(mission, member.name), flown_stops_on_laps,
-                flown_headings_on_laps, comes_again=True,
+                flown_headings_on_laps, law_of_patrol_in_space, comes_again=True,
             )  # fmt: skip
         else:
             found = flight_as_if_still(file, mission)
