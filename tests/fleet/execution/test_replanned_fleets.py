@@ -223,6 +223,21 @@ def test_a_robot_is_sent_elsewhere_from_where_it_was_asked_to_stop() -> None:
     assert drive.nearest >= APART_M
 
 
+def test_who_is_sent_onto_the_way_of_one_that_waits_for_it_lets_that_one_pass() -> None:
+    """It was to pass first, for the other one never came: there it stood for good, and was hit."""
+    drive = start(*CROSS)
+    drive.until(4.0)
+    drive.take(drive.nav.stopping("r0"))
+    drive.until(7.0)
+    assert drive.step()["r1"].waits_for == "r0"
+    there = Route.model_validate({"start": [0, 0], "goal": [20, 12]})
+    drive.take(drive.nav.rerouted("r0", there))
+    drive.until(120.0)
+    assert drive.nav.reached
+    assert drive.nearest >= APART_M - 1e-6
+    assert np.allclose(drive.at["r0"], [20, 12], atol=0.1)
+
+
 def test_who_was_asked_to_stop_goes_on_when_it_is_told_to() -> None:
     drive = start(*CROSS)
     drive.until(6.0)

@@ -9,6 +9,8 @@ Tested through ``fleet/execution/test_changed_fleets``.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
@@ -27,18 +29,27 @@ def expected_laws(
         fleet: What is driven.
         state: How far it has come.
         leaves: A robot that leaves its path where it is: those who wait for it there come later
-            than anybody else, however late that is.
+            than anybody else, but do come, and in the order that they would have.
     """
     orders, packed = state.orders.packed, state.packed
     shift, _ = expected_shifts(orders, packed.leaders, state.sequence, packed.head, packed.begin)
     alone, courses, stuck = fleet.alone, fleet.courses.packed, state.stuck(leaves)
+    for_good = stuck if leaves is None else state.stuck()
+    by_bars = [
+        _later(shift[begin:end], int(packed.head[robot]) - begin, packed.begin[robot])
+        for robot, (begin, end) in enumerate(pairwise(orders.first.tolist()))
+    ]
+    ends = alone.arrive[courses.first[1:] - 1] + [later[-1] for later in by_bars]
+    behind_all = float(ends[np.isfinite(ends)].max(initial=0.0))
     arrive, leave = np.full_like(alone.arrive, np.inf), np.full_like(alone.leave, np.inf)
     for robot in np.flatnonzero(~state.out).tolist():
         nodes = slice(int(courses.first[robot]), int(courses.first[robot + 1]))
         bars = slice(int(orders.first[robot]), int(orders.first[robot + 1]))
-        later = _later(shift[bars], int(packed.head[robot]) - bars.start, packed.begin[robot])
+        later = by_bars[robot]
         if stuck[robot] >= 0:
-            later[stuck[robot] - bars.start + 1 :] = np.inf
+            later[stuck[robot] - bars.start + 1 :] += behind_all
+        if for_good[robot] >= 0:
+            later[for_good[robot] - bars.start + 1 :] = np.inf
         along, places = courses.distance[nodes], orders.place[bars]
         comes: Ints = np.searchsorted(places, along, side="left")
         goes: Ints = np.searchsorted(places, along, side="right")
