@@ -112,7 +112,7 @@ class DrivenRobot:
     def places(self, times: Any) -> Any:
         """Where it was, (t, 3); not a number where it wasn't there."""
         found = np.full((len(times), 3), np.nan)
-        rows = np.array(self.rows)
+        rows = np.array(self.rows).reshape(-1, 3)  # a newcomer has none yet
         at = np.rint(rows[:, 0] / TICK_S).astype(int)
         for number, path in enumerate(self.paths):
             mine = (rows[:, 1] == number) & np.isfinite(rows[:, 2])

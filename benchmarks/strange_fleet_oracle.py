@@ -115,6 +115,17 @@ class Robot:
         """Whether its law goes evenly between its nodes."""
         return not any(self.law.get("changes_1ps2", ())) and not any(self.law.get("jerks_mps3", ()))
 
+    def comes_to(self, place: float) -> float:
+        """When it comes to a place along its path [m], or a little sooner [s]."""
+        along = np.array(self.law["distances_m"], float)
+        return float(self.law["times_s"][max(int(np.searchsorted(along, place)) - 1, 0)])
+
+    def goes_from(self, place: float) -> float:
+        """When it goes on from a place along its path [m], or a little later [s]."""
+        along = np.array(self.law["distances_m"], float)
+        k = min(int(np.searchsorted(along, place, side="right")), len(along) - 1)
+        return float(self.law["times_s"][k])
+
     def along(self, times: np.ndarray) -> np.ndarray:
         """How far it has come by its law [m]."""
         t, s, v, a = (np.array(self.law[key], float) for key in (
@@ -234,7 +245,9 @@ def proof_faults(data: dict[str, Any], robots: list[Robot], told: dict[str, Any]
 def order_faults(robots: dict[str, Robot], told: dict[str, Any]) -> Faults:
     """Orders of robots that have no plan, or that go round in a circle.
 
-    Whether laws keep them is seen by how far apart robots are: a second may follow a first.
+    Whether laws keep them is seen by how far apart robots are. A second that follows a first
+    through a crossing, and enters it before that one has left it, is told of by its ends as well:
+    between these it waits for it piece by piece.
     """
     marks: dict[str, set[float]] = {}
     after: dict[tuple[str, float], set[tuple[str, float]]] = {}
@@ -243,6 +256,8 @@ def order_faults(robots: dict[str, Robot], told: dict[str, Any]) -> Faults:
         if first is None or second is None or first.plan is None or second.plan is None:
             yield "order", f"of robots without plans: {one}"
             continue
+        if second.comes_to(one["enters_at_m"]) < first.goes_from(one["leaves_at_m"]):
+            continue  # it follows the first one through the crossing
         marks.setdefault(first.name, set()).add(one["leaves_at_m"])
         marks.setdefault(second.name, set()).add(one["enters_at_m"])
         entering, leaving = (second.name, one["enters_at_m"]), (first.name, one["leaves_at_m"])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.sparse.csgraph import connected_components
 
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
@@ -190,6 +191,34 @@ def test_laps_of_one_round_are_crossings_of_their_own() -> None:
     _, found = crossed(spline(ring), line((5, -6), (5, 5)))
     assert len(found.packed.robots) == 3
     assert (np.diff(found.packed.span[:, 0]) > 30.0).all()
+
+
+@given(seeds)
+@settings(max_examples=15, deadline=None)
+def test_crossings_of_laps_are_the_sets_that_their_boxes_join(seed: int) -> None:
+    """Held against all pairs of boxes, which took minutes for a dozen laps."""
+    rng = np.random.default_rng(seed)
+    rounds = []
+    for laps in (4, 5):
+        points = rng.uniform(0.0, 12.0, (int(rng.integers(3, 5)), 2))
+        rounds.append(spline(np.vstack([*[points] * laps, points[:1]]), reach=0.4))
+    courses, found = crossed(*rounds)
+    ours, theirs = (
+        np.array(boxes_of(courses, found, *pair)).reshape(-1, 5) for pair in ((0, 1), (1, 0))
+    )
+    boxes = np.vstack([ours, theirs[:, [2, 3, 0, 1, 4]]])  # along the one, and along the other
+    first, last = boxes[:, None, [0, 2]], boxes[None, :, [1, 3]]
+    overlap = first <= last
+    overlap &= overlap.transpose(1, 0, 2)
+    side = np.arange(len(boxes)) >= len(ours)
+    across = side[:, None] != side[None]
+    joined = across & overlap.all(axis=2)
+    for k, of in ((0, ~side), (1, side)):  # consecutive cells of one side
+        follows = boxes[:, None, 2 * k + 1] == boxes[None, :, 2 * k]
+        joined |= of[:, None] & of[None] & follows & overlap[:, :, 1 - k]
+    count, sets = connected_components(joined, directed=False)
+    numbers = {(int(a), int(b)) for a, b in zip(sets, boxes[:, 4], strict=True)}
+    assert len(numbers) == count == len(found.packed.robots)
 
 
 def test_no_robots_and_one_alone_have_no_crossings() -> None:

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
+import numpy as np
+
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.grouped_boxes import BEGIN, END, NOWHERE, GroupedBoxes
 from viaspline.kernels.fleet.near_boxes import HIGH, LOW
@@ -15,6 +17,8 @@ from viaspline.kernels.jit import inlined, inner
 
 FROM: Final = 2
 UNTIL: Final = 3
+SO_FAR: Final = 4  # the farthest that a run up to this one has its cells [m]
+BOUND_COLUMNS: Final = 5
 
 
 class Runs(NamedTuple):
@@ -23,7 +27,8 @@ class Runs(NamedTuple):
     Attributes:
         part: From where to where in the grouped boxes, (r, 2).
         bound: The lowest and the highest distance along the other's path [m], and where its cells
-            begin and end along its own, (r, 4).
+            begin and end along its own; these begin in order, and end by ``SO_FAR``,
+            (r, BOUND_COLUMNS).
         parent: Of the sets that runs are joined to; the lowest run of a set is its own, (r, 1).
         named: Room for a number each, (r, 1).
     """
@@ -37,7 +42,7 @@ class Runs(NamedTuple):
 @inner
 def room_for_runs(count: int) -> Runs:
     """Runs that are yet to be written."""
-    return Runs(new_ints(count, 2), new_floats(count, 4), new_ints(count, 1), new_ints(count, 1))
+    return Runs(new_ints(count, 2), new_floats(count, BOUND_COLUMNS), new_ints(count, 1), new_ints(count, 1))
 
 
 @inlined
@@ -83,21 +88,36 @@ def cut_runs(
     for run in range(offset, count):
         runs.bound[run, FROM] = distance[cell[runs.part[run, 0], 0]]
         runs.bound[run, UNTIL] = distance[cell[runs.part[run, 1] - 1, 0] + 1]
+        before = runs.bound[run - 1, SO_FAR] if run > offset else -np.inf
+        runs.bound[run, SO_FAR] = max(before, runs.bound[run, UNTIL])
     return count, is_shared
 
 
 @inlined
 def join_one_side(boxes: GroupedBoxes, first: int, last: int, runs: Runs) -> None:
-    """Join the runs of one side that have boxes in consecutive cells whose intervals overlap."""
+    """Join the runs of one side that have boxes in consecutive cells whose intervals overlap.
+
+    Boxes lie in the order of their cells, so each is held against those of the cell before.
+    """
     cell, interval, part = boxes.cell, boxes.interval, runs.part
+    start = part[first, 0] if first < last else 0
+    begin, end, of_begin = start, start, first  # the boxes of the cell before, whose the first is
+    here, of_here = start, first
     for run in range(first, last):
-        for other in range(run + 1, last):
-            for at in range(part[run, 0], part[run, 1]):
-                for at2 in range(part[other, 0], part[other, 1]):
-                    is_beside = abs(cell[at2, 0] - cell[at, 0]) == 1
-                    is_beside = is_beside and interval[at2, LOW] <= interval[at, HIGH]
-                    if is_beside and interval[at, LOW] <= interval[at2, HIGH]:
-                        _unite(runs.parent, run, other)
+        for at in range(part[run, 0], part[run, 1]):
+            if at > start and cell[at, 0] != cell[at - 1, 0]:
+                is_next = cell[at, 0] == cell[at - 1, 0] + 1
+                begin, end, of_begin = (here, at, of_here) if is_next else (at, at, run)
+                here, of_here = at, run
+            other = of_begin
+            for at2 in range(begin, end):
+                while at2 >= part[other, 1]:
+                    other += 1
+                if (
+                    interval[at2, LOW] <= interval[at, HIGH]
+                    and interval[at, LOW] <= interval[at2, HIGH]
+                ):
+                    _unite(runs.parent, run, other)
 
 
 @inlined
@@ -106,6 +126,18 @@ def _from(boxes: GroupedBoxes, distance: Floats, begin: int, end: int, place: fl
     while begin < end:
         middle = (begin + end) // 2
         if distance[boxes.cell[middle, 0] + 1] < place:
+            begin = middle + 1
+        else:
+            end = middle
+    return begin
+
+
+@inlined
+def _first_beside(bound: Floats, run: int, begin: int, end: int) -> int:
+    """The first run of the other side some of whose cells may not end before a run's boxes."""
+    while begin < end:
+        middle = (begin + end) // 2
+        if bound[middle, SO_FAR] < bound[run, LOW]:
             begin = middle + 1
         else:
             end = middle
@@ -149,12 +181,16 @@ def join_sides(boxes: GroupedBoxes, distance: Floats, ours: int, all_runs: int, 
     for run in range(all_runs):
         named[run, 0] = NOWHERE
     for run in range(ours):
-        for other in range(ours, all_runs):
+        for other in range(_first_beside(runs.bound, run, ours, all_runs), all_runs):
+            if runs.bound[other, FROM] > runs.bound[run, HIGH]:
+                break
             if _may_touch(runs.bound, run, other):
                 is_plain = is_plain and named[run, 0] == NOWHERE and named[other, 0] == NOWHERE
                 named[run, 0], named[other, 0] = other, run
     for run in range(ours):
-        for other in range(ours, all_runs):
+        for other in range(_first_beside(runs.bound, run, ours, all_runs), all_runs):
+            if runs.bound[other, FROM] > runs.bound[run, HIGH]:
+                break
             if _may_touch(runs.bound, run, other) and (
                 is_plain or _touch(boxes, distance, runs, run, other)
             ):
