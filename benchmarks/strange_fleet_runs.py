@@ -93,10 +93,10 @@ def looked_at(data: dict[str, Any], file: Path, kind: str, seed: int, *, drives:
 def written(plan: Any) -> tuple[dict[str, Any], dict[str, Any], dict[str, str]]:
     """What is written of a plan: of the fleet, and each robot's plan and table, by name."""
     from viaspline.report.fleet_json import fleet_json
-    from viaspline.report.fleet_results import _robot_contents, folder_names
+    from viaspline.report.fleet_results import folder_names, robot_contents
 
     names = folder_names(one.name for one in plan.fleet.members)
-    files = {name: _robot_contents(one, name) for name, one in plan.plans.items()}
+    files = {name: robot_contents(one, name) for name, one in plan.plans.items()}
     plans = {name: json.loads(one["plan.json"]) for name, one in files.items()}
     told = json.loads(fleet_json(plan, "strange", names))
     return told, plans, {name: str(one["path.csv"]) for name, one in files.items()}

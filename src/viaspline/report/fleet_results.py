@@ -127,14 +127,19 @@ def write_robots(plan: FleetPlan, path: Path, progress: Callable[[float], None])
     for i, (robot, planned) in enumerate(plan.plans.items()):
         progress(i / len(plan.plans))
         folder = ResultFolder(path / names[robot], ROBOT_FILES)
-        for file, content in _robot_contents(planned, robot).items():
+        for file, content in robot_contents(planned, robot).items():
             folder.write(file, content)
         folders.append(folder.path)
     return folders
 
 
-def _robot_contents(planned: Plan | SpatialPlan, robot: str) -> Contents:
-    """The files of one robot."""
+def robot_contents(planned: Plan | SpatialPlan, robot: str) -> Contents:
+    """The files of one robot of a fleet, by name.
+
+    Args:
+        planned: Its plan.
+        robot: What it is called.
+    """
     if isinstance(planned, SpatialPlan):
         return spatial_path_contents(planned, robot)
     return path_contents(planned, robot)
