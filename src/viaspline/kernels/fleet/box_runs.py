@@ -42,7 +42,9 @@ class Runs(NamedTuple):
 @inner
 def room_for_runs(count: int) -> Runs:
     """Runs that are yet to be written."""
-    return Runs(new_ints(count, 2), new_floats(count, BOUND_COLUMNS), new_ints(count, 1), new_ints(count, 1))
+    return Runs(
+        new_ints(count, 2), new_floats(count, BOUND_COLUMNS), new_ints(count, 1), new_ints(count, 1)
+    )
 
 
 @inlined
