@@ -228,3 +228,13 @@ def test_whole_numbers_are_written_as_numbers(tmp_path: Path) -> None:
     )
     write_yaml(mission, tmp_path / "m.yaml")
     assert load(tmp_path / "m.yaml") == mission
+
+
+@pytest.mark.parametrize("number", ["9" * 5000, "0x" + "f" * 3600, "0b" + "1" * 20000])
+def test_a_whole_number_that_is_too_long_to_be_written_out_is_a_fault(
+    tmp_path: Path, number: str
+) -> None:
+    text = f"route: {{start: [0, 0], via: [[5, 5]], closed: true, laps: {number}}}\n"
+    (fault,) = faults_of(tmp_path, text)
+    assert fault.startswith(":1:59: route.laps: ")
+    assert len(fault) < 200

@@ -148,6 +148,10 @@ class Document:
         return plain_scalar(tag.removeprefix(_TAG), text)
 
 
+MAX_DIGITS = 3000
+"""Of a whole number that is one: Python writes none out that has more than 4,300 in base ten."""
+
+
 def plain_scalar(kind: str, text: str) -> Any:
     """A YAML 1.2 scalar as a value of Python's.
 
@@ -160,6 +164,8 @@ def plain_scalar(kind: str, text: str) -> Any:
         return text.lower() in ("true", "yes", "on")
     digits = text.replace("_", "")
     try:
+        if kind == "int" and len(digits) > MAX_DIGITS:
+            return float("inf")
         if kind == "int":
             sign = digits.lstrip("+-").lower()
             return int(digits, 0 if sign.startswith(("0x", "0o", "0b")) else 10)
