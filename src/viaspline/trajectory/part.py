@@ -92,7 +92,7 @@ def end_of_cells(
     Example:
         >>> line = Path([[[0, 0], [10, 0], [20, 0], [30, 0]]], vias=[])
         >>> end_of_cells(line, 5.0, 15.0, Limits(max_speed=2, max_accel=1), 0.0, 10)
-        7.5
+        6.5625
     """
     first, last = np.asarray(path.parameter(np.array([start, end]))).tolist()
     if not first < last:
