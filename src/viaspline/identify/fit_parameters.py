@@ -54,12 +54,9 @@ def fitted_parameters(problem: FitProblem) -> tuple[Floats, list[int]]:
     """
     if problem.wheelbase > 0.0:
         return _steered(problem)
-    p, bounds = _unlimited(problem, ALWAYS)
-    apart = _with_limits(problem, p, bounds, (ACCEL, TURN_SLOPE, TOP))
-    wheels = [
-        _with_limits(problem, tried, limits, (TOP,))
-        for tried, limits in _on_wheels(problem, p, bounds)
-    ]
+    p = _solved(problem, _begun(problem), ALWAYS)
+    apart = _with_limits(problem, p, ALWAYS, (ACCEL, TURN_SLOPE, TOP))
+    wheels = _on_wheels(problem, p)
     best = min(wheels, key=lambda one: _cost(problem, one[0]), default=apart)
     more = max(len(best[1]) - len(apart[1]), 1)
     return best if _is_better(problem, best[0], apart[0], more) else apart
@@ -73,16 +70,16 @@ def _steered(problem: FitProblem) -> tuple[Floats, list[int]]:
     """
     limits = (ACCEL, TURN_SLOPE, TURN_MOST, TOP)
     exact = {which: of for which, of in ALWAYS.items() if which != YAW_SHARE}
+    begun = _begun(problem)
     locked, shared = (
-        _with_limits(problem, *_unlimited(problem, bounds), limits) for bounds in (exact, ALWAYS)
+        _with_limits(problem, _solved(problem, begun, bounds), bounds, limits)
+        for bounds in (exact, ALWAYS)
     )
     return shared if _is_better(problem, shared[0], locked[0]) else locked
 
 
-def _unlimited(
-    problem: FitProblem, bounds: dict[int, tuple[float, float]]
-) -> tuple[Floats, dict[int, tuple[float, float]]]:
-    """The parameters without any limits, and the bounds of each that is fitted."""
+def _begun(problem: FitProblem) -> Floats:
+    """Parameters without any limits to begin with: the best of some delays and lags."""
     p = np.full(PARAMETERS, np.inf)
     p[[SPEED_SHARE, YAW_SHARE]] = 1.0
     grid = [(delay, lag) for delay in START_DELAYS for lag in START_LAGS]
@@ -91,7 +88,7 @@ def _unlimited(
         p[[DELAY, LAG]] = delay, lag
         costs.append(_cost(problem, p))
     p[[DELAY, LAG]] = grid[int(np.argmin(costs))]
-    return _solved(problem, p, bounds), bounds
+    return p
 
 
 def _with_limits(
@@ -137,14 +134,17 @@ def _with_limit(
     return found
 
 
-def _on_wheels(
-    problem: FitProblem, p: Floats, bounds: dict[int, tuple[float, float]]
-) -> list[tuple[Floats, dict[int, tuple[float, float]]]]:
-    """Parameters with the limit of the wheels, as far as the log shows it, and their bounds."""
+def _on_wheels(problem: FitProblem, p: Floats) -> list[tuple[Floats, list[int]]]:
+    """Parameters with the limits of wheels where the log shows those, and which are fitted then.
+
+    Args:
+        problem: What is fitted.
+        p: Its parameters without any limits.
+    """
     least, likely, most = _likely(problem, p, ACCEL)
     metres = problem.scale[0] / problem.scale[1]
     low, high = (metres * share for share in ARM_RANGE)
-    limited = {**bounds, WHEEL_ACCEL: (least, most), ARM: (low, high)}
+    limited = {**ALWAYS, WHEEL_ACCEL: (least, most), ARM: (low, high)}
     found = []
     for share in START_ARMS:
         start = p.copy()
@@ -152,7 +152,7 @@ def _on_wheels(
         start[LAG] = min(float(p[LAG]), SHORT_LAG_S)
         tried = _solved(problem, start, limited)
         if _is_active(problem, tried, WHEEL_ACCEL):
-            found.append((tried, limited))
+            found.append(_with_limits(problem, tried, limited, (TOP,)))
     return found
 
 
@@ -181,10 +181,11 @@ def _solved(problem: FitProblem, start: Floats, bounds: dict[int, tuple[float, f
 def _likely(problem: FitProblem, p: Floats, which: int) -> tuple[float, float, float]:
     """The least, a likely and the greatest value of a limit that isn't known yet."""
     speed, turn = problem.channels(p)
+    one = speed if which in (TOP, ACCEL) else turn
     if which in (TOP, TURN_MOST):
-        top = float(np.abs(speed if which == TOP else turn).max())
+        top = float(np.abs(one).max())
         return 0.2 * top, 0.9 * top, top
-    slope = float(np.abs(np.diff(speed if which == ACCEL else turn)).max()) / problem.step
+    slope = float(np.abs(np.diff(one)).max()) / problem.step
     return 0.02 * slope, 0.4 * slope, slope
 
 
@@ -201,12 +202,12 @@ def _is_better(problem: FitProblem, one: Floats, other: Floats, more: int = 1) -
 
 def _is_active(problem: FitProblem, p: Floats, which: int) -> bool:
     speed, turn = problem.channels(p)
+    one = speed if which in (TOP, ACCEL) else turn
     if which in (TOP, TURN_MOST):
-        held_back = np.abs(speed if which == TOP else turn) > 0.99 * p[which]
+        held_back = np.abs(one) > 0.99 * p[which]
     elif which == WHEEL_ACCEL:
         most = np.abs(np.diff(speed)) + p[ARM] * np.abs(np.diff(turn))
         held_back = most > 0.99 * p[WHEEL_ACCEL] * problem.step
     else:
-        one = speed if which == ACCEL else turn
         held_back = np.abs(np.diff(one)) > 0.99 * p[which] * problem.step
     return float(held_back.mean()) > ACTIVE_SHARE
