@@ -190,7 +190,8 @@ class Route(
         detours: ``local``: round what stands between two via points, the path leaves the straight
             line between them late and is back on it early, so that a lane stays a lane; ``short``:
             on the shortest way. None: local where the line is more than ten times as long as what
-            stands in it and ``optimise`` is ``time``.
+            stands in it, the shortest way is off it for more than four widths of that, and
+            ``optimise`` is ``time``.
         depart_s: When the robot may set out [s]; what moves does so by the same clock.
         hold_s: How long the goal has to stay free of what moves once the robot is there [s].
         takeoff: In space, how high the robot climbs straight up before anything else.

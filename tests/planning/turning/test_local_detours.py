@@ -261,3 +261,32 @@ def test_a_path_on_which_the_robot_goes_round_something_new_gets_back_to_its_lan
     off = run.positions[beside, 0]
     assert off.min() > 90.0
     assert off.max() < 195.0
+
+
+def hall(*boxes: tuple[int, int, int, int]) -> list[dict[str, Any]]:
+    """A map of squares of 0.5 m, 100 m x 40 m, with walls round it and blocked boxes [cells]."""
+    blocked = np.zeros((80, 200), bool)
+    blocked[[0, -1]] = blocked[:, [0, -1]] = True
+    for x0, y0, x1, y1 in boxes:
+        blocked[y0:y1, x0:x1] = True
+    return [{"grid": vs.Grid(blocked, 0.5)}]
+
+
+SLOW = {"radius_m": 0.4, "clearance_m": 0.3, "max_speed_mps": 2.0, "max_accel_mps2": 1.0}
+
+
+def test_a_wall_of_a_map_that_juts_into_the_line_makes_no_lane_of_it() -> None:
+    corner = hall((100, 0, 200, 42))
+    ends = ((4.0, 17.0), (96.0, 24.5))
+    plan = vs.plan(mission(ends, corner, SLOW))
+    shortest = vs.plan(mission(ends, corner, SLOW, detours="short"))
+    assert plan.ledger[0].chosen is not None
+    assert np.array_equal(plan.path.spans, shortest.path.spans)
+
+
+def test_a_shelf_of_a_map_leaves_a_lane_what_it_is() -> None:
+    shelf = hall((98, 36, 102, 44))
+    ends = ((4.0, 20.5), (96.0, 20.5))
+    ((share, length),) = shares(vs.plan(mission(ends, shelf, SLOW)).path)
+    ((short, _),) = shares(vs.plan(mission(ends, shelf, SLOW, detours="short")).path)
+    assert share >= 1.0 - 4.0 * 4.0 / length > short

@@ -5,6 +5,7 @@ Tested through ``planning/turning/test_local_detours``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -19,9 +20,12 @@ from viaspline.planning.routing.route_problem import NO_BARRIERS
 from viaspline.planning.routing.side_barrier import Barriers, barriers_at, barriers_of
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.lane import Lane
+from viaspline.planning.turning.lane_block import width_in
+from viaspline.planning.turning.lane_turns import BESIDE_LANE
 from viaspline.world.world import World
 
 LONG_LANE = 10.0  # a lane over what stands in it, from which on it is kept unless it is said
+KEPT_WIDTHS = 4.0  # of what stands in a lane, for which the shortest way may be off it
 OFF_LANE = 0.05  # beside its line a leg begins off it, in required distances
 
 
@@ -74,7 +78,34 @@ class LegLane:
         first, last = (float(self.lane.seen(end)[0]) for end in self.leg.ends)
         return first, last
 
-    def is_long_beside(self, stays: Sequence[Stay]) -> bool:
+    def is_worth_keeping(self, stays: Sequence[Stay], taut_path: TautPath) -> bool:
+        """Whether it is long beside what stands in it, and the shortest way far off it.
+
+        Where that is off it for no more than four widths of what stands there, it keeps to it well
+        enough: so it does round a wall that juts out into it.
+        """
+        return self._is_long_beside(stays) and self._is_far_off(stays, taut_path)
+
+    def _is_far_off(self, stays: Sequence[Stay], taut_path: TautPath) -> bool:
+        """Whether the shortest way is off it for more than four widths of what stands in it."""
+        places = self.lane.seen(taut_path.corners[:, [CORNER_X, CORNER_Y]])
+        off = _length_beside(places, BESIDE_LANE * self.leg.requirements.required)
+        reach = off / KEPT_WIDTHS
+        for stay in stays:
+            if stay.size > 0.0:
+                off -= KEPT_WIDTHS * max(self._width(stay, reach), stay.end - stay.begin)
+        return off > 0.0
+
+    def _width(self, stay: Stay, reach: float) -> float:
+        """Of what stands in the way there [m]; infinite if that is more than a reach."""
+        place = self._middle(stay)
+        index = int(self.leg.world.nearest(place)[1])
+        return width_in(self.leg.world, self.lane, place, index, reach)
+
+    def _middle(self, stay: Stay) -> Floats:
+        return self.lane.at(0.5 * (stay.begin + stay.end))
+
+    def _is_long_beside(self, stays: Sequence[Stay]) -> bool:
         """Whether it is long beside what stands in it: all along it, and to the side ahead.
 
         And whether the path has to leave it at all: within the required distance it is on it.
@@ -112,12 +143,13 @@ class LegLane:
         """A blocked piece with all of what stands there, and what closes its other side."""
         if not stay.size > 0.0:
             return stay
-        world, middle = self.leg.world, self.lane.at(0.5 * (stay.begin + stay.end))
+        world, middle = self.leg.world, self._middle(stay)
         index = int(world.nearest(middle)[1])
         barriers = _barriers(world, self.lane, middle, index)
         passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
         closed = barriers.right if passed is barriers.left else barriers.left
-        size = _width(world, self.lane, index) + 2.0 * self.leg.requirements.required
+        width = width_in(world, self.lane, middle, index, self.lane.length)
+        size = (width if math.isfinite(width) else 0.0) + 2.0 * self.leg.requirements.required
         return replace(stay, size=max(size, stay.size), barriers=closed)
 
 
@@ -130,12 +162,15 @@ def _blocked(places: Floats, run: Floats) -> Stay:
     return Stay(begin, end, aside, max(end - begin, aside), NO_BARRIERS)
 
 
-def _width(world: World, lane: Lane, index: int) -> float:
-    """Of an obstacle, along a lane or across it, whichever is more; 0 of one of many parts [m]."""
-    ring = world.obstacles[index].ring if index >= 0 else None
-    if ring is None:
-        return 0.0
-    return float(np.ptp(lane.seen(ring.vertices), axis=0).max()) + 2.0 * ring.radius
+def _length_beside(places: Floats, beside: float) -> float:
+    """Of a polyline, seen from a lane (k, 2), what lies beside it by more than that [m]."""
+    steps = np.diff(places, axis=0)
+    left, rises = places[:-1, 1], steps[:, 1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = np.sort((np.array((-beside, beside))[:, None] - left) / rises, axis=0)
+    near = np.diff(np.clip(at, 0.0, 1.0), axis=0)[0]
+    shares = np.where(rises == 0.0, np.abs(left) <= beside, near)
+    return float(((1.0 - shares) * np.hypot(*steps.T)).sum())
 
 
 def _barriers(world: World, lane: Lane, place: Floats, index: int) -> Barriers:

@@ -91,7 +91,7 @@ def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> Leg
     stays = leg_lane.stays(taut_path)
     needs = leg.requirements
     needs.spend(LOCAL_LEG_S)
-    if needs.detours is None and not (stays and leg_lane.is_long_beside(stays)):
+    if needs.detours is None and not (stays and leg_lane.is_worth_keeping(stays, taut_path)):
         return None
     on_lane = [end[:2] for end in leg.ends if not leg_lane.is_off(end)]
     room = leg.world.distance(np.array(on_lane).reshape(-1, 2))
