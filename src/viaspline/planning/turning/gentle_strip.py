@@ -11,6 +11,7 @@ Tested through ``planning/methods/test_bent_gently``.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from viaspline.kernels.curve.measure import bending
 from viaspline.kernels.turning.swept_sides import StripBody
@@ -24,9 +25,9 @@ MOST_RESTLESS = 1  # of them, at which places don't come to rest: no more are tr
 SETTLED, NEARLY_SETTLED = 0.02, 0.1  # of what is required: places move by less in the last round
 
 
-def gentle_strip(
+def gentle_strips(
     run: BendableRun, world: World, body: StripBody, price: RunPrice
-) -> LaidRun | None:
+) -> Iterator[LaidRun]:
     """Bend a run of a path less, through the same via points and past the same things.
 
     Args:
@@ -35,10 +36,20 @@ def gentle_strip(
         body: What drives along it.
         price: What it may be exchanged for.
 
-    Returns:
-        That of the least tension that takes hardly longer than it, or than the fastest; None where
-        there is none that bends less.
+    Yields:
+        That of the least tension that takes hardly longer than it, or than the fastest: with places
+        near to each other, then as it was found, which is less smooth; those that rest, and bend
+        less than the run.
     """
+    chosen = _chosen(run, world, body, price)
+    if chosen is None:
+        return
+    for strip in _as_fine_as_it_rests(chosen):
+        if strip.is_settled and price.is_gentler(bending(strip.spans)[0]):
+            yield strip.laid
+
+
+def _chosen(run: BendableRun, world: World, body: StripBody, price: RunPrice) -> Tried | None:
     search, strip = TensionSearch(price), TenseStrip.along(run, world, body)
     if strip.has_kink:
         return None
@@ -51,12 +62,12 @@ def gentle_strip(
         if following is None or restless > MOST_RESTLESS:
             break
         strip, tension = following
-    chosen = search.chosen
-    if chosen is None:
-        return None
-    strip = chosen.strip.finer().settled(chosen.tension, SETTLED)
-    is_gentler = strip.is_settled and price.is_gentler(bending(strip.spans)[0])
-    return strip.laid if is_gentler else None
+    return search.chosen
+
+
+def _as_fine_as_it_rests(chosen: Tried) -> Iterator[TenseStrip]:
+    yield chosen.strip.finer().settled(chosen.tension, SETTLED)
+    yield chosen.strip
 
 
 def _tried(strip: TenseStrip, moved: TenseStrip, tension: float, price: RunPrice) -> Tried:

@@ -15,7 +15,7 @@ from viaspline.planning.problem.work_budget import STRIP_BODY_SPAN_S, STRIP_S, S
 from viaspline.planning.turning.bendable_run import BendableRun, LaidRun, RunsOfPath
 from viaspline.planning.turning.driven_price import DrivenPrice
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.gentle_strip import gentle_strip
+from viaspline.planning.turning.gentle_strip import gentle_strips
 from viaspline.planning.turning.laid_turns import through_spans
 from viaspline.planning.turning.lane_turns import BESIDE_LANE
 from viaspline.planning.turning.strip_body import strip_body
@@ -123,13 +123,12 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
 
     now = time(run.laid.spans, run.laid.joints)
     price = RunPrice(time, now, before, now / (1.0 + GENTLE_SHARE) if least is None else least)
-    bent = gentle_strip(run, problem.world, strip_body(needs), price)
-    if bent is None:
-        return None
-    peak = bending(bent.spans)[1]
     fast = 1.0 / pace.widest_radius if pace.widest_radius > 0.0 else 0.0
-    is_sharper = peak > (1.0 + SHARPER) * max(sharpest, fast)
-    is_round = peak * needs.outer_radius <= 1.0
-    if is_sharper and not (is_round and time(bent.spans, bent.joints) <= (1.0 - TIME_KNOWN) * now):
-        return None
-    return bent if problem.is_drivable(bent.spans) else None
+    for bent in gentle_strips(run, problem.world, strip_body(needs), price):
+        peak = bending(bent.spans)[1]
+        is_sharper = peak > (1.0 + SHARPER) * max(sharpest, fast)
+        is_round = peak * needs.outer_radius <= 1.0
+        is_sooner = time(bent.spans, bent.joints) <= (1.0 - TIME_KNOWN) * now
+        if (not is_sharper or (is_round and is_sooner)) and problem.is_drivable(bent.spans):
+            return bent
+    return None

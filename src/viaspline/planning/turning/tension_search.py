@@ -23,6 +23,7 @@ STEPPED = 10.0  # at most, of the tension from one that is tried to the next, wh
 LOOSENED = 4.0  # where it isn't
 NEAR_TENSION = 1.5  # of one that is too loose, at which the least that isn't is near enough
 MOSTLY_SPENT = 0.7  # of what may be: enough of it
+WANTED = 0.85  # the same, where the tension that spends so much is foretold
 
 
 @dataclass(frozen=True)
@@ -123,7 +124,12 @@ class TensionSearch:
         """Whether a tenser one may be sooner by much: a looser one is later by much."""
         gentler = self._gentler
         is_late = self._known > self.price.least
-        return len(gentler) > 1 and is_late and self._spent(gentler[-2]) > 1.0
+        if len(gentler) < 2 or not is_late or self._spent(gentler[-2]) <= 1.0:
+            return False
+        looser, tensest = gentler[-2:]
+        steps = math.log(LOOSENED) / math.log(tensest.tension / looser.tension)
+        foretold = tensest.bending * (tensest.bending / looser.bending) ** steps
+        return self.price.is_gentler(foretold)
 
     def _tenser(self, tensest: Tried) -> tuple[TenseStrip, float] | None:
         """Tenser than the tensest that bends less, less tense than what bends more."""
@@ -146,13 +152,21 @@ class TensionSearch:
         if looser:
             between = chosen.tension / looser[-1].tension
             is_near = between < NEAR_TENSION or _saves_little(chosen, looser[-1])
-            return None if is_near else (chosen.strip, chosen.tension / math.sqrt(between))
+            return None if is_near else (chosen.strip, self._between(looser[-1], chosen))
         tenser = [one for one in self._gentler if one.tension > chosen.tension]
         if tenser and _saves_little(tenser[0], chosen):
             return None
         is_late = self._known > self.price.least
         step = LOOSENED if is_late else min(1.0 / max(spent, 1e-6) ** 2, STEPPED)
         return chosen.strip, chosen.tension / step
+
+    def _between(self, looser: Tried, chosen: Tried) -> float:
+        """The tension at which as much is spent as is wanted, as what is spent falls by its log."""
+        most, least = self._spent(looser), self._spent(chosen)
+        share = min(max((WANTED - least) / (most - least), 0.0), 1.0)
+        tension = chosen.tension * math.pow(looser.tension / chosen.tension, share)
+        apart = math.sqrt(NEAR_TENSION)
+        return min(max(tension, apart * looser.tension), chosen.tension / apart)
 
 
 def _saves_little(one: Tried, looser: Tried) -> bool:
