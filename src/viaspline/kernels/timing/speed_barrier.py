@@ -83,6 +83,15 @@ def _at(rows: Floats, i: int, j: int, x: float, y: float, z: float) -> float:
     return rows[i, j, 0] * x + rows[i, j, 1] * y + rows[i, j, 2] * z
 
 
+@inlined
+def _with_room(logs: float, left: float, room: float) -> tuple[float, float]:
+    """Logarithms, and a product whose own is still to be taken: each takes as long as five rows."""
+    left *= room
+    if LEAST_PRODUCT < left < MOST_PRODUCT:
+        return logs, left
+    return logs + math.log(left), 1.0
+
+
 @inner
 def _value(terms: BarrierTerms, m: Floats, sharpness: float) -> float:
     """What the barrier makes least; inf where a limit isn't kept strictly."""
@@ -95,20 +104,14 @@ def _value(terms: BarrierTerms, m: Floats, sharpness: float) -> float:
             room = terms.limits[k] - _row(terms.rows, k, x, y, z)
             if not room > 0.0:
                 return np.inf
-            left *= room  # one logarithm of many: it takes as long as five rows
-            if not LEAST_PRODUCT < left < MOST_PRODUCT:
-                logs += math.log(left)
-                left = 1.0
+            logs, left = _with_room(logs, left, room)
         steep = _row(terms.change, i, x, y, z)
         for j in range(3):
             square = _at(terms.squares, i, j, x, y, z)
             room = terms.jerk[i] * terms.jerk[i] - steep * steep * square
             if not (square >= 0.0 and room > 0.0):
                 return np.inf
-            left *= room
-            if not LEAST_PRODUCT < left < MOST_PRODUCT:
-                logs += math.log(left)
-                left = 1.0
+            logs, left = _with_room(logs, left, room)
         for j in range(2):
             square = _at(terms.gauss, i, j, x, y, z)
             if not square > 0.0:
