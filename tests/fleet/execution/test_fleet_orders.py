@@ -82,6 +82,16 @@ def test_a_ring_that_one_robot_has_left_is_none_any_more() -> None:
         assert orders_led(fleet, ring, own, short, np.array([40.0, 0.0, 0.0])).packed.short[0] > 0.0
 
 
+def test_a_ring_with_a_robot_that_never_gets_on_is_none() -> None:
+    """The others wait for that one, and not for each other; without it all do."""
+    lines = [((0.0, 0.0), (40.0, 0.0)), ((36.0, -8.0), (12.0, 34.0)), ((28.0, 34.0), (4.0, -8.0))]
+    fleet, own = driven_on(lines), np.ones(3, np.bool_)
+    for ring in (np.array([0, 2, 1]), np.array([1, 0, 2])):
+        for dead in range(3):
+            orders = orders_led(fleet, ring, own, fixed=np.arange(3) == dead)
+            assert orders.leaders.tolist() == ring.tolist()
+
+
 def test_laws_that_meet_keep_no_order() -> None:
     fleet = driven_on(CROSS)
     alone = FleetLaws(fleet.alone)

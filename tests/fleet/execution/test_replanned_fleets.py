@@ -21,11 +21,9 @@ KINDS = {"cart": {"radius_m": 0.5, "clearance_m": 0.1, "max_speed_mps": 2.0}}
 PERIOD_S = 0.5
 
 
-def fleet(*routes: Any, world: Any = None) -> vs.Fleet:
+def fleet(*routes: Any, **keys: Any) -> vs.Fleet:
     robots = [{"name": f"r{k}", "route": route} for k, route in enumerate(routes)]
-    return vs.Fleet.model_validate(
-        {"separation_m": 1.0, "robots": KINDS, "world": world or {}, "fleet": robots}
-    )
+    return vs.Fleet.model_validate({"separation_m": 1.0, "robots": KINDS, "fleet": robots, **keys})
 
 
 CROSS = ({"start": [0, 0], "goal": [40, 0]}, {"start": [20, -20], "goal": [20, 20]})
@@ -105,8 +103,8 @@ class Drive:
             self.step(dead)
 
 
-def start(*routes: Any, world: Any = None) -> Drive:
-    plan = vs.plan_fleet(fleet(*routes, world=world))
+def start(*routes: Any, **keys: Any) -> Drive:
+    plan = vs.plan_fleet(fleet(*routes, **keys))
     assert plan.served
     return Drive(vs.FleetNavigator(plan, period=PERIOD_S))
 
@@ -167,6 +165,22 @@ def test_who_waits_for_a_dead_robot_goes_round_it() -> None:
     assert drive.nav.reached
     assert drive.nearest >= APART_M - 1e-6
     assert drive.at["r1"] == pytest.approx([20.0, 20.0])
+
+
+def test_a_robot_joins_though_another_waits_for_a_dead_one_that_is_to_wait_for_it_farther_on() -> (
+    None
+):
+    """The dead one stands where both paths meet first; where they meet again it isn't yet."""
+    there_and_back = {"start": [20, -12], "via": [[20, 8], [23, 8]], "goal": [23, -12]}
+    routes = ({"start": [0, 0], "goal": [40, 0]}, {**there_and_back, "depart_s": 15})
+    drive = start(*routes, spline={"tension": 1})
+    while drive.place["r0"] < 19.5:
+        drive.step()
+    drive.take(drive.nav.dead("r0", drive.place["r0"]))
+    assert drive.nav.blocked == {"r1": "r0"}
+    drive.take(drive.nav.with_robot(member("new", {"start": [0, 40], "goal": [40, 40]})))
+    drive.until(60.0, dead=("r0",))
+    assert drive.place["new"] >= 40.0 - 1e-6
 
 
 def test_who_is_still_on_its_way_to_where_it_has_to_wait_is_left_for_later() -> None:

@@ -56,8 +56,9 @@ def carried_over(
             leaders[c] = number
     check_settled(after, leaders)
     progress = np.where(kept >= 0, state.packed.progress[kept], 0.0)
+    fixed = (kept >= 0) & state.packed.fixed[kept]
     back = np.full(len(after.names), short)
-    orders = orders_led(after, leaders, by_second, back, progress)
+    orders = orders_led(after, leaders, by_second, back, progress, fixed)
     new = FleetProgressState.at_start(after, orders)
     packed = new.packed
     for robot in np.flatnonzero(kept >= 0):

@@ -120,7 +120,7 @@ def check_settled(fleet: DrivenFleet, leaders: Ints) -> None:
 
 def orders_led(
     fleet: DrivenFleet, leaders: Ints, by_second: Flags, short: Floats | None = None,
-    progress: Floats | None = None,
+    progress: Floats | None = None, fixed: Flags | None = None,
 ) -> FleetOrders:  # fmt: skip
     """The orders in which given robots pass each crossing first.
 
@@ -132,6 +132,8 @@ def orders_led(
         short: As for ``orders_of``.
         progress: How far each robot has come [m], (n,); nowhere if it isn't given. Orders that were
             swapped under way need have no cycle from there on only.
+        fixed: Whether a robot never gets on any more, (n,); none if it isn't given. Those that wait
+            for such a one, and who waits for them, are in no cycle for that.
 
     Raises:
         GeometryError: The orders have a cycle.
@@ -139,12 +141,22 @@ def orders_led(
     none = np.zeros(len(fleet.names))
     packed = _packed(fleet, leaders, by_second)._replace(short=none if short is None else short)
     heads = packed.first[:-1].copy()
-    fixed = np.zeros(len(fleet.names), np.bool_)
+    stands = np.zeros(len(fleet.names), np.bool_) if fixed is None else fixed
     come = none if progress is None else progress
-    sequence, stuck = order_flow(packed, leaders, come, heads, fixed)
+    sequence, stuck = order_flow(packed, leaders, come, heads, stands)
+    stuck[_held_up(packed, stuck, stands)] = -1
     if (stuck >= 0).any():
         raise GeometryError(_cycle(fleet.names, packed, stuck))
     return FleetOrders(fleet.names, packed, leaders, by_second, sequence)
+
+
+def _held_up(orders: PackedOrders, stuck: Ints, fixed: Flags) -> Flags:
+    """Which robots never get on, or are stuck behind one that doesn't, (n,)."""
+    waits = np.flatnonzero(stuck >= 0)
+    ahead, held = orders.other[stuck[waits]], fixed.copy()
+    while (more := waits[held[ahead] & ~held[waits]]).size:
+        held[more] = True
+    return held
 
 
 def _packed(fleet: DrivenFleet, leaders: Ints, by_second: Flags) -> PackedOrders:

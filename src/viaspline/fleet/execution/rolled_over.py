@@ -110,12 +110,13 @@ def _orders_later(
             by_second[c] = bool(state.orders.by_second[was]) if is_planned else True
     come = state.packed.progress - shift
     short, promised = state.orders.packed.short, state.packed.promised - shift
-    orders = orders_led(fleet, leaders, by_second, short, come)
+    fixed = state.packed.fixed
+    orders = orders_led(fleet, leaders, by_second, short, come, fixed)
     let_in = let_in_too_early(orders, promised, come)
     if let_in:  # beyond where the crossing begins in this lap
         for c, robot in let_in.items():
             leaders[c], by_second[c] = robot, True
-        orders = orders_led(fleet, leaders, by_second, short, come)
+        orders = orders_led(fleet, leaders, by_second, short, come, fixed)
         if let_in_too_early(orders, promised, come):
             return None  # both are in it by the wider cells of this lap: later, then
     return orders
