@@ -241,11 +241,17 @@ def improved_laws(
         How many were.
     """
     scene = RideScene(courses, crossings, passages, rides, laws)
-    done = 0
+    done, changes = 0, 0
+    hopeless = np.full(alone.size, -1)  # how many changes there had been when it had no ride
     while done < work:
         done += 1
         robot = _late_robot(scene, alone, weight, movable, state)
         if robot < 0:
+            continue
+        if hopeless[robot] == changes:  # the same is tried again, and counts as it does
+            random_below(state, 2)
+            done += 2 * (passages.first[robot + 1] - passages.first[robot])
+            done += courses.first[robot + 1] - courses.first[robot]
             continue
         robots = _neighbourhood(scene, robot, movable, state)
         done += passages.first[robot + 1] - passages.first[robot]
@@ -262,6 +268,10 @@ def improved_laws(
         for other in robots[:sought]:
             done += passages.first[other + 1] - passages.first[other]
             done += courses.first[other + 1] - courses.first[other]
-        if not after < before - GAIN_S:
-            _put_back(courses, laws, robots, kept, was_timed)
+        if after < before - GAIN_S:
+            changes += 1
+            continue
+        _put_back(courses, laws, robots, kept, was_timed)
+        if robots.size == 1 and not was_timed[0]:  # who is in its way can't be moved
+            hopeless[robot] = changes
     return done
