@@ -136,6 +136,24 @@ def test_a_robot_is_not_put_before_one_that_was_let_in_already() -> None:
     assert commands["new"].waits_for == "r0"
 
 
+def test_a_robot_that_joins_may_set_out_before_its_law_does_and_is_believed() -> None:
+    """Its law waits at its start until r0 has passed; by its grant it waits before r0's way."""
+    drive = start(*CROSS)
+    drive.until(2.0)
+    nav = drive.nav.with_robot(member("new", {"start": [12, -3], "goal": [12, 15]}))
+    commands, nav = nav.step([], 2.0)
+    let = commands["new"].granted
+    assert 0.3 < let < 2.0
+    commands, nav = nav.step([vs.ProgressReport("new", 4.0, let, 0.0)], 4.0)
+    assert not [one for one in nav.events if one.kind == "refused"]
+    assert nav.progress["new"] == let
+    drive.take(nav)
+    drive.time, drive.place["new"], drive.holds["new"] = 4.5, let, let
+    drive.until(60.0)
+    assert drive.nav.reached
+    assert drive.nearest >= APART_M - 1e-6
+
+
 def test_a_robot_that_is_to_rest_on_anothers_way_passes_before_it_or_is_refused() -> None:
     drive = start(*CROSS)
     drive.until(1.0)

@@ -23,7 +23,7 @@ from viaspline.kernels.fleet.open_bars import open_bars
 
 KEPT = (
     "speeds", "heard", "arrived", "silent", "out", "places", "paths", "stations", "stands",
-    "stops_at", "driven",
+    "stops_at", "sets_out", "driven",
 )  # fmt: skip
 """What a robot that keeps its path keeps of the state, beside what kernels see."""
 SAME_M = 1e-6

@@ -40,6 +40,7 @@ class FleetProgressState:
         stations: Which of its stations each one comes to next, or stands at, (n,).
         stands: Since when it stands there [s]; infinite: it doesn't yet, (n,).
         stops_at: Where each was asked to stop [m]; infinite: nowhere, (n,).
+        sets_out: Before when none may have set out [s], (n,).
         events: What happened in the last step.
     """
 
@@ -58,6 +59,7 @@ class FleetProgressState:
     stations: Ints
     stands: Floats
     stops_at: Floats
+    sets_out: Floats
     events: tuple[FleetEvent, ...] = ()
 
     @classmethod
@@ -71,7 +73,7 @@ class FleetProgressState:
             orders, packed, orders.sequence, -np.inf, np.zeros(count), np.full(count, -np.inf),
             np.zeros(count, np.bool_), np.zeros(count, np.bool_), out, np.zeros(count),
             np.zeros(count), np.zeros(count, np.int64), np.zeros(count, np.int64),
-            np.full(count, np.inf), np.full(count, np.inf),
+            np.full(count, np.inf), np.full(count, np.inf), fleet.rides.depart.copy(),
         )  # fmt: skip
 
     def copied(self, time: float) -> FleetProgressState:
@@ -91,6 +93,7 @@ class FleetProgressState:
             stations=self.stations.copy(),
             stands=self.stands.copy(),
             stops_at=self.stops_at.copy(),
+            sets_out=self.sets_out.copy(),
             events=(),
         )
 
@@ -102,7 +105,7 @@ class FleetProgressState:
             fastest=fleet.fastest,
             progress=self.packed.progress.copy(),
             promised=self.packed.promised,
-            departs=fleet.rides.depart,
+            departs=self.sets_out,
             heard=self.heard,
             out=self.out,
             paths=self.paths,

@@ -145,7 +145,14 @@ class FleetUnderWay:
             ends = laws.arrive[fleet.courses.packed.first[1:] - 1]
             last = float(ends[np.isfinite(ends)].max(initial=self.now))
             changed = self.along(joined_fleet(fleet, laws, let_in, _departing(member, last), plan))
-        return replace(changed, missions=missions.with_way(member, plan)).told(event)
+        changed = replace(changed, missions=missions.with_way(member, plan))
+        return changed._let_out(member).told(event)
+
+    def _let_out(self, member: FleetMember) -> FleetUnderWay:
+        """With a robot that may set out by what it is granted, before its law has it depart."""
+        sets_out = self.state.sets_out.copy()
+        sets_out[self.fleet.names.index(member.name)] = member.mission.route.depart_s
+        return replace(self, state=replace(self.state, sets_out=sets_out))
 
     def _laid_anew(self, name: str) -> FleetUnderWay:
         """With another path for a robot that stands, to what is left of its route."""

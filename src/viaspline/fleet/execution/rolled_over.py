@@ -82,6 +82,7 @@ def rolled_over(
         stations=served,
         stands=state.stands,
         stops_at=state.stops_at - shift,
+        sets_out=state.sets_out,
         events=state.events,
     )
 
