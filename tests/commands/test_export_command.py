@@ -11,6 +11,7 @@ from viaspline.formats.mission_format import Whereabouts
 from viaspline.formats.mission_yaml import write_yaml
 from viaspline.formats.qgc_plan import QgcPlan
 from viaspline.formats.qgc_wpl import QgcWpl
+from viaspline.report.proven_reference import PROVEN_WORDS
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -24,6 +25,7 @@ def test_a_mission_is_exported_and_told_about(tmp_path: Path) -> None:
     result = call(EXAMPLES / "fig8-patrol.yaml", out, "--origin", "47.3977,8.5456")
     assert result.exit_code == 0, result.output
     assert "m clear, for vehicles that turn" in result.output
+    assert PROVEN_WORDS in result.output.splitlines()
     assert "not carried: times" in result.output
     assert f"wrote {out}" in " ".join(result.output.split())
     assert out.exists()

@@ -52,10 +52,14 @@ def load_asked(path: Path) -> Mission | Fleet:
 
 def load_placed(path: Path) -> Mission | Fleet:
     """Read a mission or a fleet, which lies where it says, or else as was set in the studio."""
+    return placed_by_studio(load_asked(path), path)
+
+
+def placed_by_studio(asked: Mission | Fleet, path: Path) -> Mission | Fleet:
+    """What was read from a file, lying as was set in the studio where it doesn't say so itself."""
     from viaspline.errors import MissionError
     from viaspline.formats.studio_origin import studio_origin
 
-    asked = load_asked(path)
     if asked.world.origin_deg is not None:
         return asked
     try:

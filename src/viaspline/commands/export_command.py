@@ -8,13 +8,18 @@ from typing import TYPE_CHECKING
 import click
 
 from viaspline.bounded_file import is_folder, is_there
-from viaspline.commands.command_steps import load_placed, progress_bar, result_folder
+from viaspline.commands.command_steps import (
+    load_asked,
+    placed_by_studio,
+    progress_bar,
+    result_folder,
+)
+from viaspline.report.proven_reference import with_meaning
 from viaspline.report.terminal_lines import say
 
 if TYPE_CHECKING:
     from viaspline.exports.export_options import ExportOptions
     from viaspline.exports.export_path import Exported
-    from viaspline.exports.path_format import PathFormat
     from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
@@ -67,24 +72,23 @@ def export_command(
     from viaspline.exports.export_options import ExportOptions
     from viaspline.exports.path_format import path_format_of
     from viaspline.exports.tabled_path import check_origin
-    from viaspline.links.mavlink.geographic_origin import origin_note
 
     kind = path_format_of(out)  # what can't be is refused before the long work
-    saved = _is_saved(mission)
-    asked = None if saved else load_placed(mission)
-    place = None if saved and origin is None else _origin_of(mission, origin, kind)
-    note = None if saved or not kind.is_geographic else origin_note(mission, origin)
-    options = ExportOptions(place, chord_error, acceptance, spacing)
-    options = options.checked()
-    if not saved:  # the mission of a saved plan may say it, and is read with the plan
-        check_origin(kind, options, str(out))
+    options = ExportOptions(_place(origin), chord_error, acceptance, spacing).checked()
+    asked, note = None, None
+    if not _is_saved(mission):  # of a saved plan, its mission may say where it is
+        read = load_asked(mission)
+        asked = placed_by_studio(read, mission)
+        check_origin(kind, options.placed(asked), str(out))
+        if asked is not read and kind.is_geographic and origin is None:
+            note = _studio_note(mission, asked)
     with result_folder(out.parent, (out.name,)), progress_bar(quiet, asked) as watch:
         planned = _loaded(mission, watch) if asked is None else _planned(asked, watch)
         with watch.stage("export", "cutting and proving"):
             done = _exported(planned, out, options)
     if not quiet:
-        for robot, one in done.items():
-            say(f"{robot}: {one.words}" if robot else one.words)
+        told = (f"{robot}: {one.words}" if robot else one.words for robot, one in done.items())
+        say(*with_meaning(*told))
         first = next(iter(done.values()), None)
         if first is not None:
             say(*(f"not carried: {words}" for words in first.lost))
@@ -155,13 +159,18 @@ def _loaded(given: Path, watch: ProgressBar) -> Plan | SpatialPlan | FleetPlan:
         return load_plan(given)
 
 
-def _origin_of(mission: Path, said: str | None, kind: PathFormat) -> tuple[float, float] | None:
-    if said is None:
-        from viaspline.formats.load import origin_of
-        from viaspline.formats.studio_origin import studio_origin
+def _studio_note(mission: Path, asked: Mission | Fleet) -> str:
+    """Where it lies, which the user hasn't said."""
+    from viaspline.formats.studio_origin import studio_note
 
-        own = origin_of(mission)
-        return studio_origin(mission) if own is None and kind.is_geographic else own
+    assert asked.world.origin_deg is not None  # it was placed
+    return studio_note(mission, asked.world.origin_deg)
+
+
+def _place(said: str | None) -> tuple[float, float] | None:
+    """Latitude and longitude as the option gives them."""
+    if said is None:
+        return None
     try:
         latitude, longitude = (float(part) for part in said.split(","))
     except ValueError:

@@ -17,6 +17,7 @@ from viaspline.commands.link_options import talking_to, telling
 from viaspline.errors import LinkError
 from viaspline.exit_codes import NOT_REACHED
 from viaspline.report.interrupts import undone_at_the_end
+from viaspline.report.proven_reference import with_meaning
 from viaspline.report.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def drive_over_mavlink(file: Path, link: MavlinkLink, *, quiet: bool) -> None:
     mission = _mission(file)
     pilot = None if link.from_here else _pilot(mission, quiet)
     if not quiet and mission.robot.drive is None and not mission.is_spatial:
-        say(f"note: {OPEN_LOOP}")
+        say(*with_meaning(f"note: {OPEN_LOOP}"))
     if not quiet and mission.robot.sensor is not None:
         say("note: MAVLink brings nothing that is sensed: only what is on the map is kept clear of")
     tell = telling(quiet)
@@ -96,7 +97,7 @@ def drive_over_mavlink(file: Path, link: MavlinkLink, *, quiet: bool) -> None:
         if not quiet:
             say(f"{vehicle}: {ended.words}; {_figures(runner.drive)}")
         return
-    say_error(f"{vehicle}: {ended.words}", f"  {_figures(runner.drive)}")
+    say_error(*with_meaning(f"{vehicle}: {ended.words}"), f"  {_figures(runner.drive)}")
     click.get_current_context().exit(NOT_REACHED)
 
 

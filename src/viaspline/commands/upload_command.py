@@ -17,6 +17,7 @@ from viaspline.commands.link_options import (
     talking_to,
     telling,
 )
+from viaspline.report.proven_reference import with_meaning
 from viaspline.report.terminal_lines import say
 
 if TYPE_CHECKING:
@@ -69,7 +70,7 @@ def upload(
         done = upload_mission(conversation, vehicle, lists, way.itinerary.home, tell)
     if not quiet:
         parts = ", ".join(f"{LISTS[kind]}: {count} items" for kind, count in done.counts.items())
-        say(way.proof, *(f"note: {words}" for words in way.notes))
+        say(*with_meaning(way.proof), *(f"note: {words}" for words in way.notes))
         say(f"{vehicle} has on board what was sent: {parts}")
 
 

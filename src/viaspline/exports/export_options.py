@@ -11,6 +11,7 @@ from typing import Any
 from viaspline.errors import GeometryError
 from viaspline.formats.items import LatLon
 from viaspline.handed_in import number_from
+from viaspline.mission.fleet.fleet import Fleet
 from viaspline.mission.model import Mission
 
 
@@ -49,9 +50,9 @@ class ExportOptions:
             origin=None if self.origin is None else _origin(self.origin),
         )
 
-    def placed(self, mission: Mission) -> ExportOptions:
-        """Them with the origin that a mission says, where they have none."""
-        said = mission.world.origin_deg
+    def placed(self, asked: Mission | Fleet) -> ExportOptions:
+        """Them with the origin that a mission or a fleet says, where they have none."""
+        said = asked.world.origin_deg
         return self if self.origin is not None or said is None else replace(self, origin=said)
 
 

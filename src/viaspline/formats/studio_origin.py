@@ -56,6 +56,19 @@ def studio_origin(mission: Path) -> LatLon | None:
     return float(said[0]), float(said[1])
 
 
+def studio_note(mission: Path, origin: LatLon) -> str:
+    """What is to be said of an origin that neither a mission nor its user has said.
+
+    Args:
+        mission: The mission's file.
+        origin: Latitude and longitude of its 0, 0 [deg].
+
+    >>> studio_note(Path("yard.yaml"), (47.25, 8.5))
+    '0, 0 lies at 47.25, 8.5, as yard.yaml.studio.json says'
+    """
+    return f"0, 0 lies at {origin[0]:.7g}, {origin[1]:.7g}, as {beside(mission).name} says"
+
+
 def _is_on_globe(said: Any) -> bool:
     """Whether something is the latitude and longitude of a place; 0, 0 means nowhere."""
     if not isinstance(said, list) or len(said) != 2:

@@ -15,6 +15,7 @@ from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.not_served import NotServed
+from viaspline.report.proven_reference import with_meaning
 from viaspline.report.terminal_tables import Rows, facts_table
 from viaspline.report.units import asked_words, down, metres, place, seconds
 
@@ -108,7 +109,8 @@ def unserved_lines(plan: FleetPlan) -> list[str]:
     missing = plan.not_served
     if not missing:
         found, asked = plan.certificate.separation, plan.certificate.required
-        return [f"gave up: {down(found)} between the robots are proven, {metres(asked)} are asked"]
+        words = f"gave up: {down(found)} between the robots are proven, {metres(asked)} are asked"
+        return [*with_meaning(words)]
     many = f"{len(missing)} of {len(plan.fleet.members)} robots"
     lines = [f"{many} {'is' if len(missing) == 1 else 'are'} not served"]
     for one in missing[:MAX_UNSERVED_TOLD]:

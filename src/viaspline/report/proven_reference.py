@@ -30,6 +30,17 @@ def says_proven(texts: Iterable[str]) -> bool:
     return any(_WORD in text.lower() for text in texts)
 
 
+def with_meaning(*lines: str) -> tuple[str, ...]:
+    """Lines, and below them where it is written what "proven" covers if one of them says the word.
+
+    >>> with_meaning("177 points, proven 0.500 m clear")[1].endswith("docs/proven.md")
+    True
+    >>> with_meaning("177 points")
+    ('177 points',)
+    """
+    return (*lines, PROVEN_WORDS) if says_proven(lines) else lines
+
+
 def folded_page() -> str:
     """The page, as a piece of HTML that opens where it is clicked."""
     words, address = escape(PROVEN_WORDS.split(":", maxsplit=1)[0]), escape(PROVEN_PAGE)

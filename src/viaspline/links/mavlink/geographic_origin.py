@@ -10,7 +10,7 @@ from pathlib import Path
 from viaspline.errors import LinkError
 from viaspline.formats.items import LatLon
 from viaspline.formats.load import origin_of
-from viaspline.formats.studio_origin import beside, studio_origin
+from viaspline.formats.studio_origin import studio_note, studio_origin
 
 
 def mission_origin(path: Path, given: str | None) -> LatLon:
@@ -63,6 +63,4 @@ def origin_note(path: Path, given: str | None) -> str | None:
     if given is not None or origin_of(path) is not None:
         return None
     kept = studio_origin(path)
-    if kept is None:
-        return None
-    return f"0, 0 lies at {kept[0]:.7g}, {kept[1]:.7g}, as {beside(path).name} says"
+    return None if kept is None else studio_note(path, kept)
