@@ -8,7 +8,6 @@ Tested through ``studio/test_server``.
 
 from __future__ import annotations
 
-import gc
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -24,6 +23,7 @@ from viaspline.studio.page_messages import encoded
 from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
 from viaspline.studio.variant_plans import VariantPlans
 from viaspline.studio.worker import Worker
+from viaspline.warming.spared_collections import spare_collections
 
 if TYPE_CHECKING:
     from viaspline.studio.fleet.planned_fleet import PlannedFleet
@@ -100,9 +100,7 @@ class Engine:
             self._load()
         finally:
             sys.setswitchinterval(usual)
-        # All of that stays: a collection that looks at it again takes as long as a frame.
-        gc.collect()
-        gc.freeze()
+        spare_collections()
         self.ready, self.compiling = True, None
         for tell in tuple(self.listeners):
             tell("", self._compiled)
