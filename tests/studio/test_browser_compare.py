@@ -62,6 +62,9 @@ def test_variants_are_compared_drawn_and_one_is_taken_over_in_one_step(
     assert page.doc == before
     assert page.js(PIXELS, [0xC2, 0x54, 0x0A]) > 300  # tension 0.6, in its own colour
     assert page.js(PIXELS, [0x8A, 0x62, 0x00]) > 300  # the side that isn't taken
+    for column, section in (("Clear", "a-path"), ("Drives", "how-it-drives")):
+        link = page.page.locator("#compare thead").get_by_role("link", name=column)
+        assert link.get_attribute("href") == f"/page/proven.html#{section}"
     add(page, "tension", "0.6")
     assert len(cells(page)) == 6  # it is there already
 

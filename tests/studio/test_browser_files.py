@@ -142,6 +142,10 @@ def test_the_path_is_taken_in_formats_of_others_and_what_is_proven_is_shown(
         page.page.get_by_role("button", name="path.kml").click()
     assert caught.value.suggested_filename == f"{patrol.stem}-path.kml"
     page.page.get_by_text("not carried: speeds").wait_for()
+    told = page.page.locator("#dialog-body")
+    meaning = told.get_by_role("link", name="proven").get_attribute("href")
+    assert meaning == "/page/proven.html#a-path"
+    assert "docs/" not in told.inner_text()  # the page is the studio's own
     page.page.get_by_role("button", name="OK").click()
 
 
@@ -155,10 +159,11 @@ def test_what_was_proven_of_the_file_before_is_not_shown_for_the_next_one(
         """async () => {
           const answer = await studio.link.ask({type: "open", name: "other.yaml"});
           studio.opened(answer);
-          return document.querySelector("#summary").innerText;
+          return ["#summary", "#clock"].map((id) => document.querySelector(id).innerText);
         }"""
     )
-    assert "once it is planned" in seen
+    assert "once it is planned" in seen[0]
+    assert seen[1] == "–"  # nor how long it takes
     page.settle()
     assert "nothing to keep clear of" in page.page.locator("#summary").inner_text()
     assert "nothing to keep clear of" in page.page.locator("#status").inner_text()

@@ -78,9 +78,11 @@ def test_while_a_point_is_dragged_the_path_follows_and_says_that_it_is_provision
     assert np.hypot(*(spans - at).T).min() < 1e-9
     page.until("document.querySelector('#status').textContent.startsWith('provisional, not yet')")
     assert "is-busy" in page.js("document.querySelector('#status').className")
+    page.until("document.querySelector('#timeline').classList.contains('is-late')")
     assert len(page.js("studio.latencies")) > 3  # on the screen, one after the other
     mouse.up()
     page.settle()
     assert page.js("studio.early.shown") is None
     assert not page.js("studio.store.isLate")
+    page.until("!document.querySelector('#timeline').classList.contains('is-late')")
     assert page.plan["ok"]

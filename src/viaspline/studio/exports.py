@@ -13,6 +13,7 @@ from viaspline.formats.items import LatLon
 from viaspline.planner import Plan
 from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
+from viaspline.report.proven_reference import PROVEN_WORDS
 from viaspline.report.run_json import run_json
 from viaspline.report.space.spatial_results import flight_file, spatial_plan_contents
 from viaspline.robot.run import Run
@@ -88,7 +89,8 @@ def path_file(
         content, table = rendered(plan, form, ExportOptions(origin).checked(), name, file)
     except ViasplineError as error:
         raise RefusedError(str(error)) from None
-    return content, tuple(table.remarks())
+    # Where it is written what that means, the page says by a link to its own copy.
+    return content, tuple(words for words in table.remarks() if words != PROVEN_WORDS)
 
 
 def run_file(run: AnyRun, kind: str, name: str, seed: int) -> bytes:

@@ -162,6 +162,8 @@ def test_a_fleet_is_driven_and_the_drive_is_played(visit: Visit, file: Path) -> 
         assert speed >= 0.0
     page.page.locator("#scrub").fill(str(end))
     assert "all arrived in" in text(page, "#drive-note")
+    proven = page.page.locator("#drive-note").get_by_role("link", name="proven")
+    assert proven.get_attribute("href") == "/page/proven.html#fleets-and-space"
     page.page.get_by_role("button", name="robot north").click()
     assert page.js("studio.drive.run !== null")  # another one is looked at, the drive stays
     page.page.get_by_role("button", name="Back to editing").click()

@@ -3,6 +3,7 @@
 import { isDark, onTheme } from "../draw/theme.js";
 import { robotColour } from "../fleet/colours.js";
 import { fill, h, icon, iconButton, lazily } from "../panels/dom.js";
+import { meaning } from "../panels/meaning.js";
 import { down, metres, seconds } from "../units.js";
 import { letterOf } from "./compare_row.js";
 import { kindsOf, numbersIn } from "./variant_kinds.js";
@@ -97,7 +98,7 @@ export class CompareCard {
     const { rows } = this.compare;
     const best = Object.fromEntries(BEST.map(([key, way]) => [key, bestOf(rows, key, way)]));
     return h("table", {},
-      h("thead", {}, h("tr", {}, ...COLUMNS.map((name) => h("th", { scope: "col" }, name)))),
+      h("thead", {}, h("tr", {}, ...COLUMNS.map((name) => h("th", { scope: "col" }, name === "Clear" ? meaning("a-path", name) : name === "Drives" ? meaning("how-it-drives", name) : name)))),
       h("tbody", {}, ...rows.map((row, i) => this.row(row, i, best))));
   }
 

@@ -2,6 +2,7 @@
 
 import { addObstacle } from "../core/edits.js";
 import { fill, h, icon } from "../panels/dom.js";
+import { meaning } from "../panels/meaning.js";
 import { robotName } from "../core/fleet.js";
 import { packed } from "./share.js";
 import { svgOf } from "./svg.js";
@@ -72,6 +73,18 @@ export class Files {
     } catch (error) {
       this.app.toast(/** @type {Error} */ (error).message, "is-bad");
     }
+  }
+
+  /** Do what may take a while; its button shows that, and begins it once. @param {HTMLElement} button @param {() => Promise<void>} work */
+  async busily(button, work) {
+    if (button.getAttribute("aria-busy") === "true") return;
+    const sign = /** @type {Element} */ (button.firstElementChild);
+    const turning = h("span", { class: "spinner", "aria-hidden": "true" });
+    button.setAttribute("aria-busy", "true");
+    sign.replaceWith(turning);
+    await this.attempt(work);
+    turning.replaceWith(sign);
+    button.removeAttribute("aria-busy");
   }
 
   /** Ask before edits are left behind. @param {() => void} go */
@@ -172,9 +185,9 @@ export class Files {
     const own = PLAN_EXPORTS.map(([kind, words]) => [kind, ONE_ROBOT.includes(kind) ? `${words}${whose}` : words]);
     const list = [...(isOfFleet ? FLEET_EXPORTS : []), ...own, ...(!store.run ? [] : isOfFleet ? FLEET_RUN_EXPORTS : RUN_EXPORTS)];
     const place = h("input", { type: "text", class: "wide-input", value: store.origin ? store.origin.join(", ") : "", placeholder: "47.3977, 8.5456", "aria-label": "Origin", spellcheck: "false" });
-    const items = (/** @type {string[][]} */ some) => h("ul", { class: "file-list" }, ...some.map(([kind, words]) => h("li", {}, h("button", { type: "button", class: "file", onclick: () => this.attempt(() => this.take(kind, place.value)) }, icon("export", 16), h("span", {}, h("strong", {}, kind), h("small", {}, words))))));
+    const items = (/** @type {string[][]} */ some) => h("ul", { class: "file-list" }, ...some.map(([kind, words]) => h("li", {}, h("button", { type: "button", class: "file", onclick: (/** @type {Event} */ event) => this.busily(/** @type {HTMLElement} */ (event.currentTarget), () => this.take(kind, place.value)) }, icon("export", 16), h("span", {}, h("strong", {}, kind), h("small", {}, words))))));
     this.show("Export", items(list),
-      h("p", { class: "hint" }, `The path as few straight lines, proven again as the file has them${whose}`),
+      h("p", { class: "hint" }, "The path as few straight lines, ", meaning("a-path", "proven"), ` again as the file has them${whose}`),
       h("label", { class: "field" }, h("span", { class: "field-name" }, "Latitude and longitude of 0, 0 (all but those for ROS need it)"), place), items(PATH_EXPORTS),
       store.run ? null : h("p", { class: "hint" }, "After a drive its files are here as well."));
   }
@@ -194,7 +207,7 @@ export class Files {
       const bytes = Uint8Array.from(atob(answer.data), (c) => c.charCodeAt(0));
       download(answer.name, new Blob([bytes]));
       if (answer.told?.length) {
-        this.show(`Exported ${answer.name}`, ...listed("What is proven of it, and what it can't carry:", answer.told),
+        this.show(`Exported ${answer.name}`, ...listed(h("span", {}, "What is ", meaning("a-path", "proven"), " of it, and what it can't carry:"), answer.told),
           h("div", { class: "dialog-buttons" }, h("button", { type: "button", class: "button is-primary", onclick: () => this.dialog.close() }, "OK")));
       }
     }
@@ -236,7 +249,7 @@ export class Files {
   }
 }
 
-/** Some lines under a heading; nothing if there are none. @param {string} heading @param {string[]} [lines] */
+/** Some lines under a heading; nothing if there are none. @param {Node|string} heading @param {string[]} [lines] */
 function listed(heading, lines = []) {
   return lines.length ? [h("p", {}, heading), h("ul", { class: "hint" }, ...lines.map((line) => h("li", {}, line)))] : [];
 }

@@ -31,7 +31,7 @@ export function listenToBars(app) {
     if (event.target === find("#help")) /** @type {any} */ (find("#help")).close();
   });
   click("#help-close", () => /** @type {any} */ (find("#help")).close());
-  for (const [id, name] of /** @type {[string, any][]} */ ([["#new", "plus"], ["#open", "folder"], ["#save", "save"], ["#export", "export"], ["#link", "link"], ["#undo", "undo"], ["#redo", "redo"], ["#show-help", "help"], ["#fit", "fit"], ["#add-map", "map"], ["#compare-variants", "layers"], ["#save-as", "save"], ["#menu-show", "layers"], ["#menu-more", "more"], ["#step-back", "prev"], ["#step-on", "next"]])) {
+  for (const [id, name] of /** @type {[string, any][]} */ ([["#new", "plus"], ["#open", "folder"], ["#save", "save"], ["#export", "export"], ["#link", "link"], ["#undo", "undo"], ["#redo", "redo"], ["#show-help", "help"], ["#fit", "fit"], ["#add-map", "map"], ["#compare-variants", "layers"], ["#make-fleet", "fleet"], ["#save-as", "save"], ["#menu-show", "layers"], ["#menu-more", "more"], ["#step-back", "prev"], ["#step-on", "next"]])) {
     find(id).prepend(icon(name));
   }
   explainTools();

@@ -19,7 +19,7 @@ export class Plots {
     this.width = 0; // [CSS pixel]
     this.height = 0;
     const draw = lazily(() => this.draw(), 60);
-    app.store.on("plan hover run document", draw);
+    app.store.on("plan hover run document status", draw);
     app.drive.on(draw);
     onTheme(draw);
     fitted(this);
@@ -62,7 +62,7 @@ export class Plots {
     if (!curve) return;
     const tall = (height - TOP_PX - BOTTOM_PX - GAP_PX) / 2;
     const x = (/** @type {number} */ s) => LEFT_PX + (s / (curve.length || 1)) * (width - LEFT_PX - RIGHT_PX);
-    ctx.globalAlpha = store.plan?.ok === false ? 0.4 : 1;
+    ctx.globalAlpha = store.plan?.ok === false || store.isLate ? 0.4 : 1;
     this.ticks(curve, x, colours);
     /** @type {import("../geometry/curve.js").Sample[]} */ const list = curve.samples;
     const bend = bendOf(curve);

@@ -60,7 +60,7 @@ export class Settings {
       ...(isSpatial(doc) ? [] : this.advice.rows()),
       h("div", { class: "pair" },
         choice({ label: "Knots", value: doc.spline?.knots ?? "chordal", options: [["chordal", "chordal"], ["centripetal", "centripetal"], ["uniform", "uniform"]], set: (value) => this.set(["spline", "knots"], value) }),
-        choice({ label: "Tangents", value: doc.spline?.tangents ?? "", options: [["", "as the robot needs"], ["cardinal", "cardinal"], ["continuous", "continuous curvature"]], set: (value) => this.set(["spline", "tangents"], value || undefined) })),
+        choice({ label: "Tangents", value: doc.spline?.tangents ?? "", options: [["", "as needed"], ["cardinal", "cardinal"], ["continuous", "continuous curvature"]], set: (value) => this.set(["spline", "tangents"], value || undefined) })),
       h("h3", {}, "Route"),
       choice({ label: "Sides and shapes with the least", value: optimise ?? "time", options: [["time", "driven time"], ["length", "length"]], set: (value) => this.set(["route", "optimise"], value === "time" ? undefined : value) }),
       checkbox({ label: "Closed: back to the start", value: !!doc.route?.closed, set: (value) => this.app.store.edit(setClosed(this.app.store.doc, value)) }),

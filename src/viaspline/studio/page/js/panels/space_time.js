@@ -18,7 +18,7 @@ export class SpaceTimePanel {
     this.ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext("2d"));
     this.width = this.height = 0;
     const draw = lazily(() => this.draw(), 30);
-    app.store.on("plan space-time hover selection run", draw);
+    app.store.on("plan space-time hover selection run status", draw);
     app.drive.on(draw);
     app.preview.on(draw);
     onTheme(draw);
@@ -80,7 +80,7 @@ export class SpaceTimePanel {
     if (!shown) return;
     const colours = theme();
     const { store } = app;
-    ctx.globalAlpha = store.plan?.ok === false || shown.rev !== store.plan?.rev ? 0.45 : 1;
+    ctx.globalAlpha = store.plan?.ok === false || store.isLate || shown.rev !== store.plan?.rev ? 0.45 : 1;
     this.axes(shown, colours);
     ctx.save();
     ctx.beginPath();

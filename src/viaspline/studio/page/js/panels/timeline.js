@@ -7,6 +7,7 @@ import { FleetRun } from "../core/fleet_run.js";
 import { PLAY_FACTORS } from "../replay.js";
 import { clock, down, metres, seconds } from "../units.js";
 import { fill, h, icon, lazily } from "./dom.js";
+import { meaning } from "./meaning.js";
 
 /** Each kind of event has a sign of its own, so that colour is not all. */
 const EVENT_SIGNS = {
@@ -51,7 +52,7 @@ export class Timeline {
     find("#leave-drive").addEventListener("click", () => this.leave());
     app.drive.on(() => this.render());
     app.preview.on(() => this.render());
-    app.store.on("run plan", () => this.render());
+    app.store.on("run plan file status", () => this.render());
     app.store.on("robot", () => { if (app.drive.run?.fleet) this.marksSoon(); });
     this.shown = null;
     this.lastEvent = null;
@@ -142,6 +143,7 @@ export class Timeline {
     const { run } = drive;
     this.panel.classList.toggle("is-driving", !!run);
     document.body.classList.toggle("is-driving", !!run);
+    this.panel.classList.toggle("is-late", !run && store.isLate); // its times are of an older document
     const verb = this.isAsked ? "Stop" : run ? (drive.isPlaying ? "Pause" : "Play") : "Drive";
     this.dress(this.button, verb, icon(verb === "Pause" ? "pause" : verb === "Stop" ? "stop" : "play", 16), verb);
     const canPlay = this.played.end > this.played.begin;
@@ -199,7 +201,8 @@ export class Timeline {
       if (event) this.app.say(event.message);
     }
     if (drive.time >= run.duration && !drive.isPlaying) {
-      this.note.textContent = run.fleet ? fleetWords(run) : run.reached
+      if (run.fleet) fill(this.note, ...fleetWords(run));
+      else this.note.textContent = run.reached
         ? `reached the goal in ${seconds(run.duration)}, ${metres(run.distance, 1)}, never closer than ${metres(run.clearance)} · ${run.replans.length} re-plan${run.replans.length === 1 ? "" : "s"}`
         : `did not reach the goal: ${run.reason}`;
     }
@@ -228,9 +231,9 @@ export class Timeline {
   }
 }
 
-/** What came of the drive of a fleet. @param {any} run */
+/** What came of the drive of a fleet. @param {any} run @returns {(Node|string)[]} */
 function fleetWords(run) {
   const late = `${seconds(Math.abs(run.mean_delay))} ${run.mean_delay < 0 ? "sooner" : "later"} than planned in the mean`;
-  const apart = run.clearance === null ? "" : `, proven ${down(run.clearance)} apart`;
-  return `${run.reached ? "all" : run.arrived} arrived in ${seconds(run.duration)}, ${late}${apart}${run.reason ? `: ${run.reason}` : ""}`;
+  const apart = run.clearance === null ? [] : [", ", meaning("fleets-and-space", "proven"), ` ${down(run.clearance)} apart`];
+  return [`${run.reached ? "all" : run.arrived} arrived in ${seconds(run.duration)}, ${late}`, ...apart, run.reason ? `: ${run.reason}` : ""];
 }
