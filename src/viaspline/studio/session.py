@@ -28,9 +28,8 @@ from viaspline.studio.open_mission import OpenMission
 from viaspline.studio.page_messages import Message, count_of, decoded, encoded
 from viaspline.studio.pasted_parts import pasted_parts
 from viaspline.studio.refused_error import RefusedError
+from viaspline.studio.running_jobs import RunningJobs
 from viaspline.studio.variant_comparison import VariantComparison
-
-MAX_RUNNING_JOBS: Final = 32
 
 
 class Session:
@@ -61,7 +60,7 @@ class Session:
         self._driven: file_requests.Driven | None = None
         self._sending = asyncio.Lock()
         self._stop = Flag()
-        self._jobs: set[asyncio.Task[None]] = set()
+        self._jobs = RunningJobs(self._refuse)
         self._loop = asyncio.get_running_loop()
 
     async def talk(self) -> None:
@@ -80,8 +79,8 @@ class Session:
             self._stop.set()
             self._live.close()
             self._comparison.stop()
-            for task in (planning, *self._jobs):
-                task.cancel()
+            planning.cancel()
+            self._jobs.cancel()
 
     async def _greet(self) -> None:
         current = self._current
@@ -119,24 +118,9 @@ class Session:
             if kind == "edit":
                 await handler(self, message)
             else:
-                self._spawn(handler(self, message), number, kind)
+                self._jobs.begin(handler(self, message), number, kind)
         except Exception as error:
             await self._refuse(error, number, kind)
-
-    def _spawn(self, work: Coroutine[Any, Any, None], number: Any, kind: str) -> None:
-        if len(self._jobs) >= MAX_RUNNING_JOBS:
-            work.close()
-            raise RefusedError("too many things are asked for at once")
-
-        async def guarded() -> None:
-            try:
-                await work
-            except Exception as error:
-                await self._refuse(error, number, kind)
-
-        task = self._loop.create_task(guarded())
-        self._jobs.add(task)
-        task.add_done_callback(self._jobs.discard)
 
     async def _refuse(self, error: Exception, number: Any, kind: str | None) -> None:
         if isinstance(error, WebSocketDisconnect):
@@ -164,7 +148,7 @@ class Session:
         message = {"type": "compiling", "kernel": kernel, "count": count, "done": not kernel}
 
         def tell() -> None:
-            self._spawn(self._send(**message), None, "compiling")
+            self._jobs.begin(self._send(**message), None, "compiling")
 
         self._loop.call_soon_threadsafe(tell)
 
@@ -213,7 +197,7 @@ class Session:
 
         def tell(done: float) -> None:
             self._loop.call_soon_threadsafe(
-                lambda: self._spawn(self._send(type="driving", done=done), None, "drive")
+                lambda: self._jobs.begin(self._send(type="driving", done=done), None, "drive")
             )
 
         driven = await self._engine.others.drive(
@@ -269,7 +253,7 @@ class Session:
             if self._current.name == name:  # nothing else was opened meanwhile
                 await self._send(type="background", **found)
 
-        self._spawn(show(), None, "background")
+        self._jobs.begin(show(), None, "background")
 
     async def _pictures(self, message: Message) -> None:
         await self._answer(message, background_requests.pictures(self._current))
