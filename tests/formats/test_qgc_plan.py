@@ -79,6 +79,15 @@ def test_plans_that_cannot_be_read_say_why(name: str, words: str) -> None:
         load(DATA / name)
 
 
+def test_a_plan_that_says_no_version_is_told_so() -> None:
+    with pytest.raises(MissionError, match=r"\bversion: is missing; it should be 1"):
+        loaded(plan(version=None))
+    data = plan()
+    del data["mission"]["version"]
+    with pytest.raises(MissionError, match=r"mission\.version: is missing; it should be 2"):
+        loaded(data)
+
+
 def test_other_vehicles_go_at_cruise_speed() -> None:
     data = plan()
     data["mission"]["vehicleType"] = 10

@@ -15,6 +15,7 @@ from viaspline.exports.flown_over import flown_over
 from viaspline.exports.path_format import PathFormat
 from viaspline.exports.path_table import PathTable
 from viaspline.planner import Plan
+from viaspline.report.summary import counted
 from viaspline.space.spatial_plan import SpatialPlan
 
 MOST_ITEMS = 700
@@ -58,7 +59,7 @@ def _left_out(plan: Plan | SpatialPlan, kind: PathFormat, table: PathTable) -> I
         yield "speeds"
     dwells = [station.dwell for station in plan.trajectory.stations]
     if any(dwells) and "dwells" not in kind.carries:
-        yield f"dwells: {sum(dwells):g} s at {len(dwells)} stations"
+        yield f"dwells: {sum(dwells):g} s at {counted(len(dwells), 'station')}"
     if "names" not in kind.carries and any(point.name for _, point in route.points()):
         yield "names of via points"
     if "headings" not in kind.carries and looks_elsewhere(plan):

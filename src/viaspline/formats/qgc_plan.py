@@ -153,17 +153,23 @@ def plan_text(itinerary: Itinerary, own: Mapping[str, Any], *, rotors: bool) -> 
 def _check_versions(root: Tree, mission: Tree) -> None:
     if "fileType" in root and root["fileType"].value != "Plan":
         root["fileType"].fault(f"found {describe(root['fileType'].value)}", 'it should be "Plan"')
-    if root["version"].value != 1:
-        found = describe(root["version"].value)
-        root["version"].fault(f"version {found} of the format isn't known", "it should be 1")
+    _check_version(root["version"], (1,))
     if not isinstance(mission.value, dict):
         mission.fault(
             "is missing" if mission.value is None else f"found {describe(mission.value)}",
             "a plan needs a mission with items",
         )
-    elif mission["version"].value not in (1, 2):
-        found = describe(mission["version"].value)
-        mission["version"].fault(f"version {found} of the format isn't known", "it should be 2")
+    else:
+        _check_version(mission["version"], (2, 1))
+
+
+def _check_version(version: Tree, known: tuple[int, ...]) -> None:
+    """Refuse versions of the format that aren't known, the first of which is the newest."""
+    remedy = f"it should be {known[0]}"
+    if version.value is None:
+        version.fault("is missing", remedy)
+    elif version.value not in known:
+        version.fault(f"version {describe(version.value)} of the format isn't known", remedy)
 
 
 def _items(tree: Tree, notes: dict[str, list[str]]) -> Iterator[Item]:

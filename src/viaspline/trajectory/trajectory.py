@@ -62,7 +62,8 @@ class Trajectory(ShownValue, ComparedByValue):
 
     def __repr__(self) -> str:
         begin, end = float(self.distances[0]), float(self.distances[-1])
-        stops = f", {len(self.stations)} stations" if self.stations else ""
+        count = len(self.stations)
+        stops = f", {count} station{'s' if count > 1 else ''}" if count else ""
         return (
             f"<Trajectory: {begin:g} m to {end:.1f} m in {self.duration:.1f} s from "
             f"{self.start_time:g} s on, at most {float(self.speeds.max()):.2f} m/s{stops}>"

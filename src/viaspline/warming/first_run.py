@@ -56,7 +56,7 @@ def notice(jobs: Sequence[Job], before: Mapping[str, float]) -> str:
 
     >>> notice(["curves", "driving"], {})
     'compiling the kernels of paths, drives and turns, once per machine: that takes 80 s or less
-    on one core of an AMD EPYC; here it was never measured'
+    on one free core of an AMD EPYC; here it was never measured'
     """
     names = [WORDS[job] for job in jobs if job in WORDS]
     what = ", ".join(names)
@@ -68,7 +68,7 @@ def notice(jobs: Sequence[Job], before: Mapping[str, float]) -> str:
     if before:
         return f"compiling kernels of {what} that were never compiled here, once"
     most = sum(MEASURED_S.get(job, 0.0) for job in jobs)
-    there = f"that takes {most:.0f} s or less on one core of an AMD EPYC"
+    there = f"that takes {most:.0f} s or less on one free core of an AMD EPYC"
     return f"compiling the kernels of {what}, once per machine: {there}; here it was never measured"
 
 
