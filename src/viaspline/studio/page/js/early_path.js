@@ -2,6 +2,7 @@
 
 /** @typedef {{rev: number, ms: number, spans: number[], leftOut: string[], inputAt?: number}} Early */
 
+const PLACES = [1 / 2, 3 / 8, 5 / 8, 1 / 4, 3 / 4, 1 / 8, 7 / 8]; // of its way, where its words may stand
 const EARLY_WORDS = "provisional, not yet driven";
 
 export class EarlyPath {
@@ -42,12 +43,15 @@ export class EarlyPath {
     pen.stroke(colours.select, 3, [9, 6]);
   }
 
-  /** Said beside it, in the middle of its way. @param {import("./draw/pen.js").Pen} pen @returns {import("./draw/labels.js").Label[]} */
+  /** Said beside it, in the middle of its way or where else there is room. @param {import("./draw/pen.js").Pen} pen @returns {import("./draw/labels.js").Label[]} */
   labels({ camera, colours }) {
     const early = this.shown;
     if (!early) return [];
-    const i = 8 * Math.floor(early.spans.length / 16);
-    const [x, y] = camera.toScreen(early.spans[i], early.spans[i + 1]);
-    return [{ text: this.words, x, y, away: 14, colour: colours.select, bold: true, rank: 0, plate: true }];
+    const count = early.spans.length / 8;
+    const [[x, y], ...others] = PLACES.map((part) => {
+      const i = 8 * Math.floor(part * count);
+      return camera.toScreen(early.spans[i], early.spans[i + 1]);
+    });
+    return [{ text: this.words, x, y, others, away: 14, colour: colours.select, bold: true, rank: 2, plate: true }];
   }
 }

@@ -3,8 +3,9 @@
 import { LabelRoom } from "./label_room.js";
 
 /**
- * One that `yields` is left out where it would lie on another.
- * @typedef {{text: string, x: number, y: number, away: number, colour: string, bold?: boolean, rank: number, plate?: boolean, yields?: boolean}} Label
+ * One that `yields` is left out where it would lie on another; one that may stand at `others` as well
+ * does so where there is no room at its first place [CSS pixel].
+ * @typedef {{text: string, x: number, y: number, away: number, colour: string, bold?: boolean, rank: number, plate?: boolean, yields?: boolean, others?: number[][]}} Label
  */
 
 const FONT_FAMILY = "Inter, system-ui, sans-serif";
@@ -49,19 +50,21 @@ export function drawLabels(pen, labels, avoid, line) {
     const w = widthOf(ctx, text, !!label.bold) + 8, h = 18;
     /** @type {number[]|null} */ let best = null;
     let least = Infinity, isOnOther = false;
-    (label.away ? DIRECTIONS : MIDDLE_OFFSETS).forEach(([dx, dy], i) => {
+    const places = [[label.x, label.y], ...(label.others ?? [])];
+    const directions = label.away ? DIRECTIONS : MIDDLE_OFFSETS;
+    places.forEach(([atX, atY], k) => directions.forEach(([dx, dy], i) => {
       const away = label.away || 20;
-      const x = label.x + dx * away + (dx > 0.1 ? 0 : dx < -0.1 ? -w : -w / 2);
-      const y = label.y + dy * away + (label.away === 0 ? -h / 2 : dy > 0.1 ? 0 : dy < -0.1 ? -h : -h / 2);
+      const x = atX + dx * away + (dx > 0.1 ? 0 : dx < -0.1 ? -w : -w / 2);
+      const y = atY + dy * away + (label.away === 0 ? -h / 2 : dy > 0.1 ? 0 : dy < -0.1 ? -h : -h / 2);
       const box = [x, y, x + w, y + h];
       const others = room.overlaps(box);
-      const cost = i * 0.4 + (room.holds(box) ? 0 : 60) + 40 * others + 4 * room.onPath(box);
+      const cost = (k + i) * 0.4 + (room.holds(box) ? 0 : 60) + 40 * others + 4 * room.onPath(box);
       if (cost < least) {
         least = cost;
         best = box;
         isOnOther = others > 0 || !room.holds(box);
       }
-    });
+    }));
     if (!best || (least >= 40 && label.rank > 2) || (label.yields && isOnOther)) continue;
     const box = /** @type {number[]} */ (best);
     room.take(box);
