@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import inspect
 from collections.abc import Awaitable, Callable, Coroutine
 from typing import Any, Final
 
@@ -24,7 +25,7 @@ class RunningJobs:
     def __init__(self, refuse: Refuses) -> None:
         self._refuse = refuse
         self._loop = asyncio.get_running_loop()
-        self._tasks: set[asyncio.Task[None]] = set()
+        self._works: dict[asyncio.Task[None], Work] = {}
 
     def begin(self, work: Work, number: Any, kind: str) -> None:
         """Begin a work soon.
@@ -37,19 +38,22 @@ class RunningJobs:
         Raises:
             RefusedError: Too many are under way.
         """
-        if len(self._tasks) >= MAX_RUNNING_JOBS:
+        if len(self._works) >= MAX_RUNNING_JOBS:
             work.close()
             raise RefusedError("too many things are asked for at once")
         task = self._loop.create_task(self._guarded(work, number, kind))
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
-        # A page that is closed at once has it cancelled before it begins to await the work.
-        task.add_done_callback(lambda _: work.close())
+        self._works[task] = work
+        task.add_done_callback(self._ended)
 
     def cancel(self) -> None:
         """Break all of them off."""
-        for task in self._tasks:
+        for task, work in self._works.items():
             task.cancel()
+            if inspect.getcoroutinestate(work) == inspect.CORO_CREATED:
+                work.close()  # now: its task never awaits it, and the loop may be about to end
+
+    def _ended(self, task: asyncio.Task[None]) -> None:
+        self._works.pop(task).close()
 
     async def _guarded(self, work: Work, number: Any, kind: str) -> None:
         try:
