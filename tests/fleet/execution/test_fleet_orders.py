@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 sys.path.insert(0, str(Path(__file__).parent))
 from straight_drives import CROSS, driven_on, timed_lines
 
+import viaspline as vs
 from viaspline.errors import GeometryError
 from viaspline.fleet.execution.fleet_orders import orders_led, orders_of
 from viaspline.fleet.fleet_laws import FleetLaws
@@ -107,3 +108,36 @@ def test_orders_of_laws_that_keep_apart_are_acyclic(seed: int, count: int) -> No
     orders = orders_of(fleet)
     assert sorted(orders.sequence.tolist()) == list(range(orders.packed.place.size))
     assert (orders.leaders >= 0).all()
+
+
+def test_laws_that_keep_clear_of_what_both_covers_have_in_common_alone_have_one_order() -> None:
+    """The second comes a little before the cells of either robot say that the first has left."""
+    fleet = driven_on(CROSS, [0, 1])
+    bars = orders_of(fleet).packed
+    nodes = slice(fleet.courses.packed.first[1], fleet.courses.packed.first[2])
+    kept = []
+    for sooner in np.arange(0.0, 2.0, 0.05):
+        packed = fleet.laws.packed
+        arrive, leave = packed.arrive.copy(), packed.leave.copy()
+        arrive[nodes] -= sooner
+        leave[nodes] -= sooner
+        laws = FleetLaws(packed._replace(arrive=arrive, leave=leave))
+        try:
+            orders = orders_of(replace(fleet, laws=laws))
+        except GeometryError:
+            break
+        assert orders.leaders.tolist() == [0]
+        mine = slice(orders.packed.first[1], orders.packed.first[2])
+        kept.append((orders.packed.place[mine][0], orders.packed.passed[mine][-1]))
+    assert len(kept) > 2
+    held = slice(bars.first[1], bars.first[2])
+    first, last = bars.place[held][0], bars.passed[held][-1]
+    assert all(abs(place - first) <= 0.5 and abs(until - last) <= 0.5 for place, until in kept)
+
+
+@pytest.mark.slow
+def test_twenty_carts_in_a_warehouse_drive_as_far_apart_as_is_asked() -> None:
+    """Their laws are on both sides of the cells of a crossing, which were taken for two."""
+    examples = Path(__file__).parents[3] / "examples"
+    run = vs.simulate_fleet(vs.load(examples / "warehouse-carts.yaml"))
+    assert run.certificate.holds

@@ -3,7 +3,9 @@
 A crossing is a connected set of pairs of places, and the laws of two robots are a curve among such
 pairs that never goes back: it passes the set on the one side or on the other. So there is one
 order for each crossing. Its boxes from the one robot's side and from the other's both cover it;
-laws that keep clear of it need not keep clear of both covers, but of one.
+laws that keep clear of it need not keep clear of both covers, but of one. They may keep clear of
+what both have in common alone: then who is first wherever one of them clearly is, passes first, and
+the boxes of the second robot keep it away a little longer than its law does.
 
 Tested through ``fleet/execution/test_fleet_orders``.
 """
@@ -47,6 +49,8 @@ def crossing_leaders(
     count = crossings.robots.shape[0]
     after = np.ones((count, 2), np.bool_)  # by the boxes of the one: the other passes before it
     before = np.ones((count, 2), np.bool_)
+    earlier = np.zeros((count, 2), np.bool_)  # there is a box at which the one is first
+    has_boxes = np.zeros((count, 2), np.bool_)
     for robot in range(crossings.box_first.size - 1):
         if not laws.is_timed[robot]:
             continue
@@ -56,22 +60,30 @@ def crossing_leaders(
             if not laws.is_timed[other]:
                 continue
             side = 0 if crossings.robots[c, 0] == robot else 1
-            if after[c, side]:
-                comes = -np.inf if cell == start else laws.arrive[cell]
-                gone = goes_from(courses, laws, other, crossings.high[b])
-                after[c, side] = gone <= comes + ROUNDING_S
-            if before[c, side]:
-                goes = laws.leave[end] if cell + 1 == end else laws.arrive[cell + 1]
-                there = comes_to(courses, laws, other, crossings.low[b])
-                before[c, side] = goes <= there + ROUNDING_S
+            has_boxes[c, side] = True
+            comes = -np.inf if cell == start else laws.arrive[cell]
+            gone = goes_from(courses, laws, other, crossings.high[b])
+            goes = laws.leave[end] if cell + 1 == end else laws.arrive[cell + 1]
+            there = comes_to(courses, laws, other, crossings.low[b])
+            is_after, is_before = gone <= comes + ROUNDING_S, goes <= there + ROUNDING_S
+            after[c, side] &= is_after
+            before[c, side] &= is_before
+            earlier[c, 1 - side] |= is_after and not is_before
+            earlier[c, side] |= is_before and not is_after
     leaders = np.full(count, UNSETTLED)
     by_second = np.zeros(count, np.bool_)
+    after &= has_boxes  # where only one has boxes, they alone keep the robots apart
+    before &= has_boxes
     for c in range(count):
         one, two = crossings.robots[c, 0], crossings.robots[c, 1]
         if not (laws.is_timed[one] and laws.is_timed[two]):
             leaders[c] = UNTIMED
+        elif not has_boxes[c].any():
+            leaders[c] = one
         elif after[c, 1] or before[c, 0]:
             leaders[c], by_second[c] = one, after[c, 1]
         elif after[c, 0] or before[c, 1]:
             leaders[c], by_second[c] = two, after[c, 0]
+        elif earlier[c, 0] != earlier[c, 1] and has_boxes[c, 1 if earlier[c, 0] else 0]:
+            leaders[c], by_second[c] = (one if earlier[c, 0] else two), True
     return leaders, by_second
