@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.ndimage import distance_transform_edt, label
 
 import viaspline as vs
+from viaspline.planning.methods.clear_spline import ClearSpline
+from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
+from viaspline.planning.problem.method import Found
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import via_sequence_of
+from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.turning.driven_price import DrivenPrice
+from viaspline.planning.turning.driven_problem import DrivenProblem
+from viaspline.planning.turning.likely_price import LikelyPrice
 
 CELL = 0.5
 
@@ -39,6 +50,25 @@ def test_a_longer_way_is_taken_where_the_shortest_one_loses_more_to_its_bends() 
     assert paths["time"].path.evaluate(u)[:, 1].max() > 19.0
     assert paths["time"].path.length > 1.05 * paths["length"].path.length
     assert paths["time"].trajectory.duration < paths["length"].trajectory.duration
+
+
+def test_of_ways_among_much_else_one_that_is_likely_later_is_not_laid() -> None:
+    mission = on_map(two_doors(), [2.0, 10.0], [28.0, 10.0])
+    requirements, world = Requirements.of(mission), vs.World.known(mission)
+    asked = PathProblem.of(via_sequence_of(mission), world, requirements)
+    problem = DrivenProblem(
+        asked.sequence, world, requirements, asked.router, cleared=ClearSpline().lay(asked)
+    )
+    laid = TurnsOnShortest().lay(problem)
+    assert isinstance(laid, Found)
+    row, price = problem.shortest_row, LikelyPrice(problem, laid.value)
+    assert price.least(row) <= laid.cost
+    (passed,) = problem.cleared.passed.values()
+    (sooner, *_) = sorted(price.least(row.with_leg(0, way)) for way in passed.rivals)
+    assert DrivenPrice(problem).least(row) < sooner < laid.cost
+    detour = np.array([[40.0, 9.5, 0, 0, 0, 0, 0, 0], *row.taut_paths[0].corners])
+    far = replace(row.taut_paths[0], corners=detour, bends=np.empty((0, 6)))
+    assert price.least(row.with_leg(0, far)) > laid.cost
 
 
 @settings(max_examples=15)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.method import Found, GaveUp, Refusal
 from viaspline.planning.routing.lattice_route import LatticeRoute
+from viaspline.planning.routing.pulled_guides import MOST_KEPT, PulledGuide, PulledGuides
 from viaspline.planning.routing.route_problem import NO_BARRIERS, RouteProblem, SearchSpace
 from viaspline.world.world import World
 
@@ -89,3 +91,49 @@ def test_what_a_route_goes_round_is_marked_as_met() -> None:
     asked = problem(world)
     assert LatticeRoute().lay(asked).value is not None
     assert asked.active.tolist() == [True, False]
+
+
+def at_wall(route: Any) -> float:
+    """Where a route passes the wall in the middle [m]."""
+    places = route.value.corners[:, :2]
+    return float(np.interp(20.0, places[:, 0], places[:, 1]))
+
+
+def test_gaps_that_one_route_found_too_narrow_are_closed_for_the_next_one() -> None:
+    asked = problem(slotted(1.9, 2.05, 1.98, 1.95, 2.05))
+    first = LatticeRoute().lay(asked)
+    gaps = asked.space.pulled.known_gaps
+    assert at_wall(first) == pytest.approx(12.0, abs=0.1)
+    assert len(gaps)
+    assert (np.hypot(*(gaps[:, 2:] - gaps[:, :2]).T) < 2.0 * REQUIRED).all()
+    again = LatticeRoute().lay(asked)
+    np.testing.assert_array_equal(again.value.corners, first.value.corners)
+    shut = np.array([[20.0, 10.0, 20.0, 14.0]])
+    other = LatticeRoute().lay(replace(asked, barriers=shut))
+    alone = LatticeRoute().lay(replace(problem(asked.space.world), barriers=shut))
+    assert at_wall(other) == pytest.approx(36.0, abs=0.1)
+    assert other.cost == pytest.approx(alone.cost)
+
+
+def test_known_gaps_prove_nothing_more_than_all_gaps_do() -> None:
+    asked = problem(slotted(1.9, 1.95, 1.98))
+    assert isinstance(LatticeRoute().lay(asked), Refusal)
+    assert len(asked.space.pulled.known_gaps)
+    assert isinstance(LatticeRoute().lay(asked), Refusal)
+
+
+def test_among_made_lattices_no_other_is_made() -> None:
+    asked, made = problem(slotted(2.05)), LatticeRoute(lattices=SearchSpace.made_lattices)
+    assert isinstance(made.lay(asked), GaveUp)
+    assert not asked.space.has_lattice
+    found = LatticeRoute().lay(asked)
+    assert isinstance(found, Found)
+    assert made.lay(asked).value is found.value
+
+
+def test_what_came_of_guides_is_let_go_when_there_are_many() -> None:
+    guides, nothing = PulledGuides(), PulledGuide(None, NO_BARRIERS)
+    asked: list[int] = []
+    for k in (*range(MOST_KEPT), 0, MOST_KEPT, 0):
+        guides.once(np.full((2, 2), float(k)), 1.0, lambda k=k: asked.append(k) or nothing)
+    assert asked == [*range(MOST_KEPT), MOST_KEPT, 0]

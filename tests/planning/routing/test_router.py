@@ -288,3 +288,14 @@ def test_lattices_that_were_let_go_are_made_again_as_they_were() -> None:
     assert not router.has_lattice
     np.testing.assert_array_equal(router.lattice.cells, before)
     assert router.has_lattice
+
+
+def test_a_router_among_made_lattices_shares_them() -> None:
+    places = np.array([[-10.0, 0.0], [10.0, 0.0]])
+    router = Router(World([disc(0, 0, 3)], bounds=(-20, -20, 20, 20)), 1.0, places)
+    made = router.among_made
+    assert not made.has_lattice
+    assert router.lattice is made.lattice
+    assert made.pulled is router.pulled
+    router.without_lattices()
+    assert not router.among_made.has_lattice

@@ -55,6 +55,11 @@ class GroupsInTheWay:
     met: tuple[Group, ...]
     active: Flags
 
+    @property
+    def among_made(self) -> GroupsInTheWay:
+        """See ``InTheWay``: among few obstacles no lattice is needed."""
+        return self
+
     def other_way(self, met: Met, side: Side, best: TautPath) -> Outcome[TautPath]:
         """See ``InTheWay``.
 

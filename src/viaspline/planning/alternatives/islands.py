@@ -9,7 +9,7 @@ Tested through ``test_map_promises``.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -49,6 +49,11 @@ class IslandsInTheWay:
     def active(self) -> Flags:
         """See ``InTheWay``."""
         return on_the_line(self.leg.world, *self.leg.ends, self.leg.requirements.required)
+
+    @property
+    def among_made(self) -> IslandsInTheWay:
+        """See ``InTheWay``."""
+        return replace(self, leg=replace(self.leg, router=self.leg.router.among_made))
 
     def other_way(self, met: Met, side: Side, best: TautPath) -> Outcome[TautPath]:
         """See ``InTheWay``."""

@@ -122,7 +122,8 @@ class LegSearch:
             return self.router.find(start, goal, closed, met, self.requirements.spend), met
 
         ends = (start.tobytes(), goal.tobytes())
-        asked = ("route", self.world, ends, closed.tobytes(), active.tobytes())
+        how = self.router.required, self.router.methods
+        asked = ("route", self.world, how, ends, closed.tobytes(), active.tobytes())
         return self.requirements.once(asked, found)
 
     def curve(self, taut_path: TautPath | None, active: Flags) -> Spline | None:

@@ -35,6 +35,11 @@ class InTheWay(Protocol):
         """(n,): the obstacles that the leg's shortest taut path was found with."""
         ...
 
+    @property
+    def among_made(self) -> InTheWay:
+        """The same, whose other ways are sought on no finer lattices than the leg's own was."""
+        ...
+
     def other_way(self, met: Met, side: Side, best: TautPath) -> Outcome[TautPath]:
         """The shortest taut path on a side of one of them, if the mission allows it.
 
@@ -80,14 +85,26 @@ class PassedLeg:
     @cached_property
     def other_ways(self) -> tuple[OtherWay, ...]:
         """The other side of each that is in the way."""
-        return tuple(self._other_way(met) for met in self.in_the_way.met)
+        where = self.in_the_way
+        if self.is_weighed or where.among_made is where:
+            return tuple(self._other_way(where, met) for met in where.met)
+        return tuple(
+            self._other_way(where, met) if near.taut_path is None else near
+            for near, met in zip(self._near_ways, where.met, strict=True)
+        )
 
-    def _other_way(self, met: Met) -> OtherWay:
+    @cached_property
+    def _near_ways(self) -> tuple[OtherWay, ...]:
+        """The other sides, where that takes no finer lattices than those that are made."""
+        where = self.in_the_way.among_made
+        return tuple(self._other_way(where, met) for met in self.in_the_way.met)
+
+    def _other_way(self, where: InTheWay, met: Met) -> OtherWay:
         side = opposite(met.side_of(self.best.taut_path))
         forbidden = met.forbidden(side)
         if forbidden is not None:
             return OtherWay(None, forbidden)
-        outcome = self.in_the_way.other_way(met, side, self.best.taut_path)
+        outcome = where.other_way(met, side, self.best.taut_path)
         return OtherWay(outcome.value, reason_of(outcome, side))
 
     @cached_property
@@ -105,12 +122,13 @@ class PassedLeg:
     def rivals(self) -> tuple[TautPath, ...]:
         """Taut paths on other sides of what is in the way; those along which splines fit, if known.
 
-        Among much else only the paths are sought: splines take their time there.
+        Among much else only the paths are sought: splines take their time there, and so do lattices
+        that are finer than the leg's own way took.
         """
         if self.is_weighed:
             curves = self.comparison.curves
             return tuple(curve.taut_path for curve in curves if curve is not self.best)
-        return tuple(way.taut_path for way in self.other_ways if way.taut_path is not None)
+        return tuple(way.taut_path for way in self._near_ways if way.taut_path is not None)
 
     @property
     def taken(self) -> Spline:

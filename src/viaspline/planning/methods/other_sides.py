@@ -14,8 +14,8 @@ from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, c
 from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.turning.driven_price import DrivenPrice
 from viaspline.planning.turning.driven_problem import DrivenProblem
+from viaspline.planning.turning.likely_price import LikelyPrice
 
 MAX_SOUGHT_BENDS = 60
 """Legs among much else are led to other sides in rows of no more bends: to lay one takes longer
@@ -63,7 +63,9 @@ class OtherSides:
         except SpentBudgetError:  # there is a path, and no time left to look for another
             return outcome
         most = max(MAX_LAID // max(len(problem.bends.rows), 1) ** 2, 1)
-        best = cheapest_laid(rows, attempt, DrivenPrice(problem), outcome.value, most)
+        best = cheapest_laid(
+            rows, attempt, LikelyPrice(problem, outcome.value), outcome.value, most
+        )
         assert best is not None  # there was one to begin with
         rivals = sorted((one for one in known if one[1] is not best), key=lambda one: one[0])
         return Found(best, problem.cost(best), rivals=tuple(rivals))

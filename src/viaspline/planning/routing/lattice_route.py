@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -15,7 +17,9 @@ from viaspline.kernels.world.segment import nearest_to_segment
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.work_budget import GUIDE_OBSTACLE_S, GUIDE_S, LATTICE_S
 from viaspline.planning.routing.lattice import Lattice
+from viaspline.planning.routing.pulled_guides import PulledGuide
 from viaspline.planning.routing.route_problem import (
+    NO_BARRIERS,
     TURN_MARGINS_M,
     TURN_STEPS_RAD,
     RouteProblem,
@@ -53,18 +57,20 @@ class LatticeRoute:
 
     Attributes:
         max_gaps: Gaps of a lattice that may prove too narrow before a finer one is tried.
+        lattices: Those of a space that are tried, the coarsest first.
     """
 
     max_gaps: int = 200
+    lattices: Callable[[SearchSpace], Iterable[Lattice]] = SearchSpace.ever_finer
 
     def lay(self, problem: RouteProblem, bound: float = math.inf) -> Outcome[TautPath]:
         """See ``Method``."""
-        closed, count = problem.barriers, 0
+        closed, count, lattice, is_shut = problem.barriers, 0, None, False
         if not problem.space.has_lattice:
             problem.spend(LATTICE_S)
-        for lattice in problem.space.ever_finer():
+        for lattice in self.lattices(problem.space):
             count += 1
-            found = self.followed(problem, lattice, closed)
+            found = self._past_known_gaps(problem, lattice, closed)
             if found.taut_path is not None:
                 return _if_shorter(found.taut_path, problem, bound)
             is_shut = lattice.is_open and found.is_proof
@@ -74,7 +80,19 @@ class LatticeRoute:
             problem.spend(LATTICE_S)
         if is_shut:
             return Refusal("every gap on the way there is too narrow")
-        return self._gave_up(lattice, count, is_open=lattice.is_open)
+        return self._gave_up(lattice, count)
+
+    def _past_known_gaps(self, problem: RouteProblem, lattice: Lattice, closed: Floats) -> Followed:
+        """Follow the guides of a lattice without what is known to be too narrow, if any is left.
+
+        Else with it: only so nothing blocks more cells than it has to, and nothing found is proof.
+        """
+        known = problem.space.pulled.known_gaps
+        if len(known):
+            found = self.followed(problem, lattice, np.vstack((closed, known)))
+            if found.taut_path is not None:
+                return found
+        return self.followed(problem, lattice, closed)
 
     def followed(self, problem: RouteProblem, lattice: Lattice, closed: Floats) -> Followed:
         """Follow the guides of a lattice, each but the last through a gap that is closed then.
@@ -92,16 +110,10 @@ class LatticeRoute:
             guide = _guide(space, lattice, problem.start, problem.goal)
             if guide is None:
                 return Followed(None, closed, lattice.is_fine or len(closed) == begun)
-            bends, corners, stuck = pulled_taut(
-                space.world.packed, guide, lattice.kept, space.required + np.array(TURN_MARGINS_M),
-                space.floor, lattice.side, np.array(TURN_STEPS_RAD),
-            )  # fmt: skip
-            if len(bends):
-                taut_path = TautPath(corners, bends, float(taut_length(corners, bends)))
-                return Followed(taut_path, closed, is_proof=True)
-            narrow = narrow_places(space.world.packed, guide, space.floor)
-            if stuck[0, 4] < 0.0 and _is_too_narrow(space, stuck[:, :4]):
-                narrow = np.vstack((narrow, stuck[:, :4]))
+            pulled = space.pulled.once(guide, lattice.side, partial(_pulled, space, lattice, guide))
+            if pulled.taut_path is not None:
+                return Followed(pulled.taut_path, closed, is_proof=True)
+            narrow = pulled.narrow
             if len(closed) == begun:
                 narrow = np.vstack((narrow, space.narrow_disc_gaps))
             if not len(narrow):
@@ -112,9 +124,11 @@ class LatticeRoute:
                 break  # what is too narrow there is none of these
         return Followed(None, closed, is_proof=False)
 
-    def _gave_up(self, finest: Lattice, count: int, *, is_open: bool) -> GaveUp:
+    def _gave_up(self, finest: Lattice | None, count: int) -> GaveUp:
+        if finest is None:
+            return GaveUp(("no lattice",))
         cells = f"cells of {finest.side:.3g} m, the finest of {count} lattices"
-        if not is_open:
+        if not finest.is_open:
             return GaveUp(
                 (f"{cells}, which are too wide for so small a robot",),
                 "a smaller world.bounds, or more robot.clearance_m",
@@ -131,6 +145,22 @@ def _if_shorter(taut_path: TautPath, problem: RouteProblem, bound: float) -> Out
         return GaveUp((f"a route of {taut_path.length:.3f} m, which is not shorter",))
     problem.mark(taut_path)
     return Found(taut_path, taut_path.length, is_settled=False)
+
+
+def _pulled(space: SearchSpace, lattice: Lattice, guide: Floats) -> PulledGuide:
+    """A guide pulled taut, else the gaps on its way that are too narrow."""
+    packed = space.world.packed
+    bends, corners, stuck = pulled_taut(
+        packed, guide, lattice.kept, space.required + np.array(TURN_MARGINS_M),
+        space.floor, lattice.side, np.array(TURN_STEPS_RAD),
+    )  # fmt: skip
+    if len(bends):
+        length = float(taut_length(corners, bends))
+        return PulledGuide(TautPath(corners, bends, length), NO_BARRIERS)
+    narrow = narrow_places(packed, guide, space.floor)
+    if stuck[0, 4] < 0.0 and _is_too_narrow(space, stuck[:, :4]):
+        narrow = np.vstack((narrow, stuck[:, :4]))
+    return PulledGuide(None, narrow)
 
 
 def _is_too_narrow(space: SearchSpace, gap: Floats) -> bool:

@@ -18,6 +18,7 @@ from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.kernels.world.segment import mark_near_segment
 from viaspline.planning.routing.lattice import Lattice
 from viaspline.planning.routing.lattices import CELLS_QUICK, lattices
+from viaspline.planning.routing.pulled_guides import PulledGuides
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
@@ -27,6 +28,7 @@ from viaspline.world.world import World
 TURN_MARGINS_M = (1e-3, 1e-4, -0.25 * PROOF_SLACK_M)
 TURN_STEPS_RAD = (np.pi / 6, np.pi / 32, np.pi / 200)  # largest turn at one corner
 NO_BARRIERS = np.empty((0, 4))
+MADE_AGAIN = ("_lattices", "pulled", "among_made")  # of a search space, where that is needed
 MAX_DISC_PAIRS = 200_000  # near enough to each other that their gaps are looked at all at once
 
 
@@ -101,18 +103,28 @@ class SearchSpace:
                 made.append(finer)
             yield made[k]
 
+    def made_lattices(self) -> Iterator[Lattice]:
+        """Those that have been made by now, the coarsest first."""
+        return iter(self._lattices[0])
+
     @cached_property
     def _lattices(self) -> tuple[list[Lattice], Iterator[Lattice]]:
         """Those that are made, and those that are not yet."""
         return [], lattices(self.world, self.required, self.floor, self.places, self.most_cells)
 
+    @cached_property
+    def pulled(self) -> PulledGuides:
+        """What came of the guides that were followed in it."""
+        return PulledGuides()
+
     def without_lattices(self) -> None:
         """Let go of the lattices, some ten megabytes: they are made again where they are needed."""
-        vars(self).pop("_lattices", None)
+        for name in MADE_AGAIN:
+            vars(self).pop(name, None)
 
     def __getstate__(self) -> dict[str, object]:
         """For another process: without the lattices, which are made there if they are needed."""
-        return {name: part for name, part in vars(self).items() if name != "_lattices"}
+        return {name: part for name, part in vars(self).items() if name not in MADE_AGAIN}
 
 
 @dataclass(frozen=True)

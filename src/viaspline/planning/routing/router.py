@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -25,6 +26,11 @@ ROUTE_METHODS: tuple[RouteMethod, ...] = (
     ExactRoute(max_met=MAX_EXACT_OBSTACLES),
     LatticeRoute(),
     ExactRoute(MAX_EXACT_OBSTACLES, MAX_EXACT_AGAIN, LEAST_GAIN_AGAIN),
+)
+AMONG_MADE: tuple[RouteMethod, ...] = (
+    ROUTE_METHODS[0],
+    LatticeRoute(lattices=SearchSpace.made_lattices),
+    ROUTE_METHODS[2],
 )
 
 
@@ -60,6 +66,16 @@ class Router(SearchSpace):
         """
         problem = RouteProblem(self, start, goal, barriers, active, spend)
         return first_settled(self.methods, problem)
+
+    @cached_property
+    def among_made(self) -> Router:
+        """This one without any finer lattices than those that are made by now.
+
+        Another way than the one that was found is worth no finer ones.
+        """
+        other = replace(self, methods=AMONG_MADE)
+        vars(other).update({name: getattr(self, name) for name in ("_lattices", "pulled")})
+        return other
 
     def is_dense(self, active: Flags) -> bool:
         """Whether routes are sought on a lattice first: on maps, and among many obstacles."""

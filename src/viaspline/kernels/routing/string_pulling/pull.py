@@ -46,6 +46,7 @@ MAX_FEATURES_NEAR = 256  # features that are looked at near one place
 MAX_INSERTIONS = 2  # times that a feature may be put in anew on one side
 GUIDE_TURN_RAD = np.pi / 16  # at one corner of a string that is the guide of a wider one
 GRADIENT_STEP = 1e-6  # as a share of the distance
+PLACES_ACROSS_GAP = 65  # at which it is looked at whether a gap has the room
 MAX_GROWTH = 0.1  # of the distance at a time, as a share of the whole
 
 
@@ -268,6 +269,19 @@ def _is_clear(world: PackedWorld, corners: Floats, floor: float) -> bool:
     return True
 
 
+@fused
+def _is_shut(world: PackedWorld, stuck: Floats, floor: float) -> bool:
+    """Whether nothing on the segment across a gap keeps ``floor``: no margin opens it."""
+    for i in range(PLACES_ACROSS_GAP):
+        w = i / (PLACES_ACROSS_GAP - 1)
+        x = stuck[0, 0] + w * (stuck[0, 2] - stuck[0, 0])
+        y = stuck[0, 1] + w * (stuck[0, 3] - stuck[0, 1])
+        distance, _ = nearest(world, x, y, floor)
+        if distance >= floor:
+            return False
+    return True
+
+
 @kernel
 def pulled_taut(
     world: PackedWorld, guide: Floats, kept: float, rhos: Floats, floor: float, side: float,
@@ -296,6 +310,8 @@ def pulled_taut(
     for r in range(rhos.size):
         rows, count = _pulled(world, guide, kept, rhos[r], floor, side, stuck)
         if count == 0:
+            if stuck[0, 4] < 0.0 and _is_shut(world, stuck, floor):
+                break
             continue
         bends = new_floats(count, PLACE)
         for i in range(count):
