@@ -37,7 +37,7 @@ class InTheWay(Protocol):
 
     @property
     def among_made(self) -> InTheWay:
-        """The same, whose other ways are sought on no finer lattices than the leg's own was."""
+        """This one, whose other ways are sought on no finer lattices than the leg's own was."""
         ...
 
     def other_way(self, met: Met, side: Side, best: TautPath) -> Outcome[TautPath]:

@@ -131,6 +131,17 @@ def test_of_a_gap_that_is_too_narrow_the_two_obstacles_are_told() -> None:
     assert {tuple(stuck[0, :2]), tuple(stuck[0, 2:4])} == {(0.0, 4.9), (1.0, -4.9)}
 
 
+@pytest.mark.parametrize("spare", [-1e-3, 6e-4, 5e-3])
+def test_a_gap_too_narrow_for_one_margin_is_passed_with_a_smaller_one(spare: float) -> None:
+    edge = 0.01 + 2.0 * RHO + spare
+    wall = Obstacle(polygon=[(-3, edge), (3, edge), (3, edge + 4), (-3, edge + 4)])
+    middle = 0.5 * (0.01 + edge)
+    guide = [(-9, 6), (-5, 6), (-5, middle), (0, middle), (3, middle), (9, -5)]
+    bends, _, stuck = pulled(World([wall, disc(0, 0, 0.01)]), guide, side=0.5)
+    assert (len(bends) > 0) == (spare > 0.0)
+    assert len(bends) or stuck[0, 4] == -1.0
+
+
 def test_of_a_gap_beside_a_straight_wall_a_place_on_that_is_told() -> None:
     wall = Obstacle(polygon=[(-30, 0.9), (30, 0.9), (30, 3), (-30, 3)])
     bends, _, stuck = pulled(World([wall, disc(0, -2.0, 1.0)]), [(-9, -0.04), (9, -0.04)])

@@ -46,7 +46,7 @@ MAX_FEATURES_NEAR = 256  # features that are looked at near one place
 MAX_INSERTIONS = 2  # times that a feature may be put in anew on one side
 GUIDE_TURN_RAD = np.pi / 16  # at one corner of a string that is the guide of a wider one
 GRADIENT_STEP = 1e-6  # as a share of the distance
-PLACES_ACROSS_GAP = 65  # at which it is looked at whether a gap has the room
+MAX_PLACES_ACROSS_GAP = 200  # at which it is looked at whether a gap has the room
 MAX_GROWTH = 0.1  # of the distance at a time, as a share of the whole
 
 
@@ -271,15 +271,24 @@ def _is_clear(world: PackedWorld, corners: Floats, floor: float) -> bool:
 
 @fused
 def _is_shut(world: PackedWorld, stuck: Floats, floor: float) -> bool:
-    """Whether nothing on the segment across a gap keeps ``floor``: no margin opens it."""
-    for i in range(PLACES_ACROSS_GAP):
-        w = i / (PLACES_ACROSS_GAP - 1)
-        x = stuck[0, 0] + w * (stuck[0, 2] - stuck[0, 0])
-        y = stuck[0, 1] + w * (stuck[0, 3] - stuck[0, 1])
-        distance, _ = nearest(world, x, y, floor)
-        if distance >= floor:
+    """Whether nothing on the segment across a gap keeps ``floor``: no margin opens it then.
+
+    So far as the distance lacks there, so far on it lacks some as well.
+    """
+    dx = stuck[0, 2] - stuck[0, 0]
+    dy = stuck[0, 3] - stuck[0, 1]
+    size = math.hypot(dx, dy)
+    along = 0.0
+    for _ in range(MAX_PLACES_ACROSS_GAP):
+        if along >= size:
+            return True
+        distance, _ = nearest(
+            world, stuck[0, 0] + along / size * dx, stuck[0, 1] + along / size * dy, floor
+        )
+        if distance >= floor - SAME_DISTANCE_M:
             return False
-    return True
+        along += floor - distance
+    return False
 
 
 @kernel
