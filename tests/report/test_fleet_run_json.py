@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from io import StringIO
 
 import pytest
@@ -11,7 +12,7 @@ from rich.console import Console
 import viaspline as vs
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.report.fleet_run_json import fleet_run_json
-from viaspline.report.fleet_tables import fleet_run_table
+from viaspline.report.fleet_tables import fleet_run_table, too_near_words
 
 FLEET = {
     "separation_m": 1,
@@ -50,3 +51,11 @@ def test_the_table_says_who_arrived_and_how_late(run: FleetRun) -> None:
     assert "2 of 2" in text
     assert "later than planned" in text
     assert "(asked 1.00 m)" in text
+
+
+def test_robots_that_came_too_near_are_warned_of(run: FleetRun) -> None:
+    assert too_near_words(run.certificate) is None
+    pair = ("east", "north")
+    near = replace(run.certificate, separation=0.5, required=1.0, pair=pair, at_s=4.0)
+    words = "'east' and 'north' drove as near as 0.500 m after 4.0 s, 1.00 m are asked"
+    assert too_near_words(near) == words

@@ -186,7 +186,12 @@ def run_fleet_file(
 
 
 def end_not_reached(done: FleetRun) -> None:
-    """Say which robots did not reach their goals, and end with the code for it."""
+    """Say which robots came too near, or did not reach their goals; end with the code for that."""
+    from viaspline.report.fleet_tables import too_near_words
+
+    near = too_near_words(done.certificate)
+    if near is not None:
+        say_error(near, prefix="warning: ")
     if done.reached:
         return
     late = [name for name in done.names if name not in done.arrivals]

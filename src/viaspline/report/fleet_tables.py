@@ -92,6 +92,16 @@ def fleet_run_rows(run: FleetRun) -> Rows:
     return rows
 
 
+def too_near_words(certificate: FleetCertificate) -> str | None:
+    """That robots drove nearer to each other than is asked; None where they didn't."""
+    if certificate.holds or certificate.pair is None:
+        return None
+    one, two = certificate.pair
+    when = f"after {seconds(certificate.at_s)}"
+    found, asked = down(certificate.separation), metres(certificate.required)
+    return f"'{one}' and '{two}' drove as near as {found} {when}, {asked} are asked"
+
+
 def _late_words(plan: FleetPlan) -> str:
     """How much later than alone the robots that are served arrive, all together."""
     late = alone = 0.0
