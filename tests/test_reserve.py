@@ -77,7 +77,7 @@ def test_where_the_error_at_full_lock_would_not_fit_the_turns_are_wider() -> Non
 
 
 def test_where_the_widest_turns_take_too_long_those_that_leave_half_are_taken() -> None:
-    mission = a_turn_in_a_court(room=5.0, depth=12.0, apart=8.0)
+    mission = a_turn_in_a_court(room=5.0, depth=12.0, apart=7.0)
     plan = vs.plan(mission)
     half = roomy_turn_radius(mission.robot, 0.5 * ENOUGH_RESERVE)
     assert plan.mission.robot.turn_radius == pytest.approx(half)
