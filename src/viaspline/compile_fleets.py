@@ -21,6 +21,7 @@ from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.time_paths import time_paths
+from viaspline.kernels.fleet.common_parts import common_parts, connected_parts, passed_second
 from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.trajectory.limits import Limits
 from viaspline.trajectory.retime import retime
@@ -53,6 +54,9 @@ def timed_pair() -> DrivenFleet:
     )  # fmt: skip
     timing = time_paths(courses, crossings_of(courses), rides, [0.0, 0.0])
     crossings = ordered_crossings(courses, crossings_of(courses), timing.laws)
+    parts = common_parts(courses.packed, crossings.packed, np.ones(1, np.bool_))
+    connected_parts(crossings.packed, *parts)
+    passed_second(courses.packed, crossings.packed, timing.laws.packed, *parts)
     certify_fleet(courses, timing.laws, 0.0)
     precedences_of(courses, crossings, timing.laws, rides.laws)
     return DrivenFleet(courses, crossings, timing.laws, rides.packed, 0.0)

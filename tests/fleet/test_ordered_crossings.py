@@ -6,11 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.ordered_crossings import ordered_crossings
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.crossing_leaders import crossing_leaders
+from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 
 
 @pytest.fixture(scope="module")
@@ -48,3 +54,71 @@ def test_orders_that_differ_divide_a_crossing(planned: FleetPlan) -> None:
 def test_crossings_with_one_order_stay_what_they_are(planned: FleetPlan) -> None:
     crossings = planned.crossings
     assert ordered_crossings(planned.courses, crossings, planned.laws) is crossings
+
+
+PLACES = st.tuples(st.integers(0, 12), st.integers(0, 12)).map(lambda at: [4.0 * c for c in at])
+ROUTES = st.lists(PLACES, min_size=3, max_size=6, unique_by=tuple)
+
+
+def sampled(planned: FleetPlan, robot: int) -> tuple[Floats, Floats, Floats]:
+    """Places each quarter metre along a path [m], from when to when a robot is there [s] (2, k).
+
+    And where they are, (k, 2).
+    """
+    courses, laws = planned.courses.packed, planned.laws.packed
+    begin, end = courses.first[robot], courses.first[robot + 1]
+    nodes = courses.distance[begin:end]
+    places = np.arange(0.0, nodes[-1], 0.25)
+    both = np.column_stack([laws.arrive, np.minimum(laws.leave, 1e9)])[begin:end].ravel()
+    times = [np.interp(places + by, np.repeat(nodes, 2), both) for by in (-1e-9, 1e-9)]
+    path = planned.plans[planned.courses.names[robot]].path
+    return places, np.array(times), path.at_distance(places)
+
+
+def sooner(planned: FleetPlan, seconds: float) -> FleetLaws:
+    """The laws of a plan of two robots, the second of which sets out sooner."""
+    packed = planned.laws.packed
+    arrive, leave = packed.arrive.copy(), packed.leave.copy()
+    arrive[planned.courses.packed.first[1] :] -= seconds
+    leave[planned.courses.packed.first[1] :] -= seconds
+    return FleetLaws(packed._replace(arrive=arrive, leave=leave))
+
+
+def crossings_in(
+    planned: FleetPlan, found: PackedCrossings, robot: int, place: float, other: float
+) -> set[int]:
+    """The crossings of which a robot's boxes hold a place of its path and one of the other's."""
+    distance = planned.courses.packed.distance
+    box = slice(*found.box_first[robot : robot + 2])
+    cells = found.cell[box]
+    is_in = (distance[cells] <= place) & (place <= distance[cells + 1])
+    is_in &= (found.low[box] <= other) & (other <= found.high[box])
+    return set(found.crossing[box][is_in].tolist())
+
+
+@settings(deadline=None, max_examples=15)
+@given(st.lists(ROUTES, min_size=2, max_size=2), st.floats(0.0, 40.0), st.floats(0.0, 0.95))
+def test_what_a_robot_passes_first_is_in_boxes_of_both_that_say_so_however_close_it_is(
+    routes: list[list[list[float]]], departs: float, share: float
+) -> None:
+    data = [
+        {"name": f"r{k}", "depart_s": departs * k,
+         "route": {"start": way[0], "via": way[1:-1], "goal": way[-1]}}
+        for k, way in enumerate([routes[0], [[x + 2.0, y + 2.0] for x, y in routes[1]]])
+    ]  # fmt: skip
+    planned = vs.plan_fleet(vs.Fleet.model_validate({"separation_m": 1, "fleet": data}))
+    if not planned.served or not len(planned.crossings.packed.robots):
+        return
+    places, times, where = zip(*(sampled(planned, robot) for robot in (0, 1)), strict=True)
+    apart = np.linalg.norm(where[0][:, None] - where[1], axis=-1)
+    pairs = np.argwhere(apart < 1.999)  # with bodies of half a metre
+    (comes, goes), (others_come, others_go) = (one[:, pairs[:, k]] for k, one in enumerate(times))
+    is_second = comes >= others_go - 1e-6
+    later = (others_come - goes)[~is_second]
+    laws = sooner(planned, share * later.min(initial=100.0))
+    found = ordered_crossings(planned.courses, as_one(planned.crossings), laws).packed
+    leaders, _ = crossing_leaders(planned.courses.packed, found, laws.packed)
+    for (i, k), leader in zip(pairs.tolist(), is_second.astype(int).tolist(), strict=True):
+        mine = crossings_in(planned, found, 0, places[0][i], places[1][k])
+        both = mine & crossings_in(planned, found, 1, places[1][k], places[0][i])
+        assert leader in {int(leaders[c]) for c in both}

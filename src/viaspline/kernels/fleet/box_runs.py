@@ -57,7 +57,7 @@ def root_of(parent: Ints, i: int) -> int:
 
 
 @inlined
-def _unite(parent: Ints, i: int, j: int) -> None:
+def unite(parent: Ints, i: int, j: int) -> None:
     """Make one set of two; the lower root stays."""
     i, j = root_of(parent, i), root_of(parent, j)
     parent[max(i, j), 0] = min(i, j)
@@ -119,7 +119,7 @@ def join_one_side(boxes: GroupedBoxes, first: int, last: int, runs: Runs) -> Non
                     interval[at2, LOW] <= interval[at, HIGH]
                     and interval[at, LOW] <= interval[at2, HIGH]
                 ):
-                    _unite(runs.parent, run, other)
+                    unite(runs.parent, run, other)
 
 
 @inlined
@@ -196,4 +196,4 @@ def join_sides(boxes: GroupedBoxes, distance: Floats, ours: int, all_runs: int, 
             if _may_touch(runs.bound, run, other) and (
                 is_plain or _touch(boxes, distance, runs, run, other)
             ):
-                _unite(runs.parent, run, other)
+                unite(runs.parent, run, other)
