@@ -151,11 +151,18 @@ def gaps(one: Upright, other: Upright, offset: Any) -> Any:
 class NavigatorDrive:
     """One drive of a plan.
 
+    Attributes:
+        changes: How many things happen.
+        patience: How long it is waited before one that stands is sent elsewhere [s].
+
     Args:
         plan: What is driven.
         random: Of all that happens.
         field: Places of the plane up to which robots are sent [m].
     """
+
+    changes = 4
+    patience = 2.0
 
     def __init__(self, plan: FleetPlan, random: np.random.Generator, field: float = 22.0) -> None:
         self.plan, self.random, self.field = plan, random, field
@@ -178,39 +185,51 @@ class NavigatorDrive:
 
     def faults(self) -> Iterator[str]:
         """Drive, and say what was wrong."""
-        ticks = round(PERIOD_S / TICK_S)
         steps = int(LONGEST_S / PERIOD_S)
         plan_end = max(one.trajectory.end_time for one in self.plan.plans.values())
-        events = sorted(self.random.uniform(0.0, 0.7 * min(plan_end, LONGEST_S), 4).tolist())
+        last = 0.7 * min(plan_end, LONGEST_S)
+        events = sorted(self.random.uniform(0.0, last, self.changes).tolist())
         step = 0
         for step in range(steps):
             time = round(step * PERIOD_S, 6)
             while events and events[0] <= time:
                 events.pop(0)
                 self._something_happens(time)
-            reports = [
-                one.report(time)
-                for one in self.robots.values()
-                if (not one.is_dead or self.random.random() < 0.5) and self.random.random() > LOST
-                and (one.name in self.nav.names)
-            ]  # fmt: skip
+            reports = self._reports(time)
             commands, self.nav = self.nav.step(reports, time)
             self._send_elsewhere(time)
             if self.nav.blocked and step % 20 == 0:
                 self.nav = self.nav.replanned()
                 self._take_new_paths()
-            for name, command in commands.items():
-                if self.random.random() > LOST:
-                    self.robots[name].hear(command, time)
-            for tick in range(ticks):
-                now = time + tick * TICK_S
-                for one in self.robots.values():
-                    one.record(now)
-                    if not one.is_gone:
-                        one.tick(now)
+            self._tell(commands, time)
+            self._drive_on(time)
             if self._is_over():
                 break
         yield from self._wrong_at_end((step + 1) * PERIOD_S)
+
+    def _reports(self, time: float) -> list[vs.ProgressReport]:
+        """Those that come in: some are lost."""
+        return [
+            one.report(time)
+            for one in self.robots.values()
+            if (not one.is_dead or self.random.random() < 0.5) and self.random.random() > LOST
+            and (one.name in self.nav.names)
+        ]  # fmt: skip
+
+    def _tell(self, commands: Any, time: float) -> None:
+        """What robots hear of what they are told."""
+        for name, command in commands.items():
+            if self.random.random() > LOST:
+                self.robots[name].hear(command, time)
+
+    def _drive_on(self, time: float) -> None:
+        """Drive all robots for a period."""
+        for tick in range(round(PERIOD_S / TICK_S)):
+            now = time + tick * TICK_S
+            for one in self.robots.values():
+                one.record(now)
+                if not one.is_gone:
+                    one.tick(now)
 
     def _is_over(self) -> bool:
         return all(
@@ -326,7 +345,7 @@ class NavigatorDrive:
                 if not (one.is_dead or one.is_gone):
                     self.nav = self.nav.resumed(name)
                 continue
-            if one.speed > 0.0 or time < since + 2.0:
+            if one.speed > 0.0 or time < since + self.patience:
                 continue
             try:
                 route = Route.model_validate({"start": [0.0] * len(goal), "goal": goal})
