@@ -10,13 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_ways import FleetWays
-from viaspline.fleet.laying.relay_paths import relay_paths
-from viaspline.fleet.relaid_fleet import NEXT_ROOMS_M, ROOM_M, driven_alone
+from viaspline.fleet.held_laws import laws_hold
+from viaspline.fleet.laying.layings_with_room import layings_with_room
+from viaspline.fleet.relaid_fleet import driven_alone
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.time_paths import Timing
-from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.planning.alternatives.solution import Solution
@@ -97,12 +96,8 @@ def _relaid(
     ranks = {one.name: one.priority for one in timed.ways.members}
     names = sorted(met, key=lambda name: -ranks[name])
     failed: dict[str, tuple[str, str]] = {}
-    room: float | None = ROOM_M
-    while room is not None:
-        wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
-        found = relay_paths(wider, fixed, names)
+    for found in layings_with_room(fleet, fixed, names):
         failed = {one.name: (one.reason, one.remedy) for one in found.not_served}
-        room = NEXT_ROOMS_M.get((room, not failed))
         if not failed:
             kept = _as_laid(fleet, timed, fixed, found.plans)
             if kept is not None:
@@ -143,10 +138,7 @@ def _as_laid(
         last = int(new.courses.packed.first[robot + 1]) - 1
         if name in found and new.rides.packed.vanishes[robot]:
             packed.leave[last] = found[name].trajectory.end_time
-    leaders, _ = crossing_leaders(new.courses.packed, new.crossings.packed, packed)
-    if (leaders == UNSETTLED).any():
-        return None
-    if not certify_fleet(new.courses, settled, fleet.separation_m).holds:
+    if not laws_hold(new.courses, new.crossings, settled, fleet.separation_m):
         return None
     kept = TimedFleet(new, Timing(settled, dict(blocked)))
     proofs = (moving_proof(fleet, plan) for plan in kept.planar_plans().values())

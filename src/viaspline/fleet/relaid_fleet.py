@@ -16,25 +16,18 @@ import numpy as np
 
 from viaspline.fleet.courses import courses_of
 from viaspline.fleet.crossings import crossings_of
-from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws, static_laws
 from viaspline.fleet.fleet_ways import FleetWays
+from viaspline.fleet.held_laws import laws_hold
 from viaspline.fleet.laying.lay_round_stretch import laying_cost
-from viaspline.fleet.laying.relay_paths import relay_paths
+from viaspline.fleet.laying.layings_with_room import layings_with_room
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import Timing
-from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.whole_plan import fastest_law, stations
 
-ROOM_M = 0.3
-"""So much farther apart than they must be robots are laid at first [m]: the boxes of crossings,
-which are half a metre long, tell who passes first if there is room."""
-NEXT_ROOMS_M = {(0.3, True): 0.6, (0.3, False): 0.0, (0.0, True): 0.15}
-"""How much farther apart then [m], after such a room in which all could be laid, or not all: who
-finds no path with little room finds none with more, and where that isn't it, more may help."""
 PATHS_A_LAYING = 24
 """What one laying of a robot among others that move costs, in layings of a path."""
 
@@ -57,16 +50,11 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet, budget: float) -> TimedFleet |
     names = [ways.members[k].name for k in wanted]
     best: TimedFleet | None = None
     cost = max(laying_cost(ways.planar[robot]) for robot in blocked)
-    left = int(budget / (PATHS_A_LAYING * cost))
-    room: float | None = ROOM_M
-    while room is not None:
-        wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
-        relaid = relay_paths(wider, fixed, names, left)
-        found, left = relaid.plans, left - relaid.layings
-        room = NEXT_ROOMS_M.get((room, not relaid.not_served))
-        if len(found) <= len(fixed):
+    most = int(budget / (PATHS_A_LAYING * cost))
+    for relaid in layings_with_room(fleet, fixed, names, most):
+        if len(relaid.plans) <= len(fixed):
             continue
-        again = _along(fleet, ways, fixed, found)
+        again = _along(fleet, ways, fixed, relaid.plans)
         if len(again.blocked) < len((best or timed).blocked):
             best = again
         if not again.blocked:
@@ -111,10 +99,7 @@ def _as_laid(
         if rides.packed.vanishes[robot]:
             packed.leave[courses.packed.first[robot + 1] - 1] = plan.trajectory.end_time
     laws = FleetLaws(packed)
-    leaders, _ = crossing_leaders(courses.packed, crossings.packed, packed)
-    if (leaders == UNSETTLED).any():
-        return None
-    if not certify_fleet(courses, laws, fleet.separation_m).holds:
+    if not laws_hold(courses, crossings, laws, fleet.separation_m):
         return None
     durations = np.array([plan.trajectory.duration for plan in alone.values()])
     led = FleetWays(ways.members, plans, courses, crossings, replace(rides, alone=durations))

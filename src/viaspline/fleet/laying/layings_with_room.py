@@ -1,0 +1,42 @@
+"""Robots laid anew farther apart than they must be, with more or less room each time.
+
+The boxes of crossings, which are half a metre long, tell who passes first if there is room. Who
+finds no path with little room finds none with more; where that isn't it, more may help.
+
+Tested through ``fleet/test_plan_fleet``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from viaspline.fleet.laying.relay_paths import MAX_LAYINGS, RelaidPaths, relay_paths
+from viaspline.mission.fleet.fleet import Fleet
+from viaspline.planner import Plan
+
+ROOM_M = 0.3
+"""So much farther apart than they must be robots are laid at first [m]."""
+NEXT_ROOMS_M = {(0.3, True): 0.6, (0.3, False): 0.0, (0.0, True): 0.15}
+"""How much farther apart then [m], after such a room in which all could be laid, or not all."""
+
+
+def layings_with_room(
+    fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str], most: int | None = None
+) -> Iterator[RelaidPaths]:
+    """What comes of laying robots anew, with one room after the other.
+
+    Args:
+        fleet: What is asked for.
+        fixed: Plans of robots that are timed, by name, with laws by the clock of the fleet.
+        names: The others that are to be served, the most important first.
+        most: How many times a robot may be laid in all; None: with each room as often as
+            ``relay_paths`` lays them.
+    """
+    room: float | None = ROOM_M
+    left = most
+    while room is not None:
+        wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
+        relaid = relay_paths(wider, fixed, names, MAX_LAYINGS if left is None else left)
+        yield relaid
+        left = None if left is None else left - relaid.layings
+        room = NEXT_ROOMS_M.get((room, not relaid.not_served))
