@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.errors import GeometryError, PlanningError
+from viaspline.fleet.execution import fleet_under_way
 from viaspline.fleet.execution.ways_from_rest import rest_of_route
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.route_spec import Route
@@ -211,7 +212,9 @@ def test_who_is_still_on_its_way_to_where_it_has_to_wait_is_left_for_later() -> 
     assert same.paths["r1"] is drive.nav.paths["r1"]
 
 
-def test_who_has_no_way_round_a_dead_robot_stays_and_is_named() -> None:
+def test_who_has_no_way_round_a_dead_robot_stays_and_is_named(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     walls = [
         [[-2, 2], [42, 2], [42, 3], [-2, 3]],
         [[-2, -3], [42, -3], [42, -2], [-2, -2]],
@@ -228,6 +231,11 @@ def test_who_has_no_way_round_a_dead_robot_stays_and_is_named() -> None:
     event = nav.events[-1]
     assert (event.kind, event.name) == ("has no way", "r1")
     assert "r0" in event.message
+    with monkeypatch.context() as patch:  # as long as nothing is otherwise it isn't sought again
+        patch.delattr(fleet_under_way, "laid_now")
+        drive.take(nav)
+        drive.until(62.0, dead=("r0",))
+        assert drive.nav.replanned().events[-1].message == event.message
     drive.take(drive.nav.without("r0"))  # it is carried off
     drive.place["r0"] = 0.0
     drive.until(120.0, dead=("r0",))

@@ -74,7 +74,7 @@ def carried_over(
     packed.begin[kept < 0] = np.maximum(packed.begin[kept < 0], state.time)
     check_let_in(orders, packed.promised, packed.progress)
     open_bars(orders.packed, packed)
-    return replace(new, time=state.time, events=state.events)
+    return replace(new, time=state.time, events=state.events, no_ways=state.no_ways)
 
 
 def _begin_anew(

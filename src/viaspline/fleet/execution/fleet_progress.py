@@ -5,7 +5,8 @@ Tested through ``fleet/execution/test_fleet_navigator``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_orders import FleetOrders
 from viaspline.fleet.execution.fleet_run import FleetEvent
 from viaspline.fleet.execution.judged_reports import KnownFleet
+from viaspline.fleet.execution.no_ways import NoWay
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.dispatching import dispatch_at_start, dispatch_copy
 from viaspline.kernels.fleet.order_flow import order_flow
@@ -42,6 +44,7 @@ class FleetProgressState:
         stops_at: Where each was asked to stop [m]; infinite: nowhere, (n,).
         sets_out: Before when none may have set out [s], (n,).
         events: What happened in the last step.
+        no_ways: Robots for which no path was found where they stand, by name.
     """
 
     orders: FleetOrders
@@ -61,6 +64,7 @@ class FleetProgressState:
     stops_at: Floats
     sets_out: Floats
     events: tuple[FleetEvent, ...] = ()
+    no_ways: Mapping[str, NoWay] = field(default_factory=dict)
 
     @classmethod
     def at_start(cls, fleet: DrivenFleet, orders: FleetOrders) -> FleetProgressState:

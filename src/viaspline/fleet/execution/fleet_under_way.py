@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viaspline.errors import GaveUpError, GeometryError, PlanningError
+from viaspline.errors import GaveUpError, GeometryError, NoPathError, PlanningError
 from viaspline.fleet.execution.carried_over import carried_over
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.dwells import STANDS_MPS, FleetStations
@@ -19,7 +19,8 @@ from viaspline.fleet.execution.fleet_orders import index_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent
 from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
-from viaspline.fleet.execution.other_ways import laid_now, left_of_route, sent_from
+from viaspline.fleet.execution.no_ways import NoWay, SoughtWay
+from viaspline.fleet.execution.other_ways import around_now, laid_now, left_of_route, sent_from
 from viaspline.fleet.execution.rolled_over import rolled_over
 from viaspline.fleet.execution.ways_from_rest import FleetMissions
 from viaspline.kernels.fleet.dispatching import HELD_M
@@ -116,7 +117,25 @@ class FleetUnderWay:
                 failed.clear()  # who found no way may find one now
             except (PlanningError, GeometryError) as error:
                 failed[name] = FleetEvent("has no way", self.now, name, str(error))
+                if isinstance(error, NoPathError):
+                    now = now._without_way(name, error)
         return now.told(*failed.values())
+
+    def _without_way(self, name: str, error: NoPathError) -> FleetUnderWay:
+        """With a robot for which there is no path as long as nothing is otherwise round it."""
+        found = NoWay(self._sought(name, self._anew(name)), error)
+        no_ways = {**self.state.no_ways, name: found}
+        return replace(self, state=replace(self.state, no_ways=no_ways))
+
+    def _sought(self, name: str, mission: Mission) -> SoughtWay:
+        """What the path of a robot is sought by."""
+        around = around_now(self.fleet, self.state, self.known, name)
+        return SoughtWay(mission.route, around, self._out)
+
+    @property
+    def _out(self) -> tuple[str, ...]:
+        """Those that never get on any more."""
+        return tuple(self.fleet.names[k] for k in np.flatnonzero(self.state.out).tolist())
 
     def _next_of(self, failed: Mapping[str, FleetEvent]) -> str | None:
         """Who is to be laid anew next: it waits for one that never gets on, or in another's way."""
@@ -133,9 +152,8 @@ class FleetUnderWay:
     def joined(self, member: FleetMember, event: FleetEvent) -> FleetUnderWay:
         """With a robot that begins a path of its own now, in place of one of its name."""
         missions, fleet, state = self.known, self.fleet, self.state
-        out = [fleet.names[k] for k in np.flatnonzero(state.out).tolist()]
         member = _departing(member, max(member.mission.route.depart_s, self.now))
-        plan = laid_now(fleet, state, missions, member, out)
+        plan = laid_now(fleet, state, missions, member, self._out)
         let_in = LetIn(state.packed.progress, state.packed.promised, state.out)
         leaves = fleet.names.index(member.name) if member.name in fleet.names else None
         laws = expected_laws(fleet, state, leaves)
@@ -156,16 +174,23 @@ class FleetUnderWay:
 
     def _laid_anew(self, name: str) -> FleetUnderWay:
         """With another path for a robot that stands, to what is left of its route."""
+        mission, known = self._anew(name), self.state.no_ways.get(name)
+        if known is not None and known.sought == self._sought(name, mission):
+            raise known.error.with_traceback(None)
+        place = float(self.state.places[index_of(self.fleet.names, name)])
+        return self._sent(name, mission, f"{name} goes another way from {place:.1f} m")
+
+    def _anew(self, name: str) -> Mission:
+        """What is left of the mission of a robot that stands.
+
+        Raises:
+            GeometryError: It never ends, or no route is left that could be planned.
+        """
         robot, missions = index_of(self.fleet.names, name), self.known
         plan, place = missions.plans[name], float(self.state.places[robot])
         if missions.members[name].mission.route.is_patrol:
             raise GeometryError("it is a patrol that never ends; give it a route of its own")
-        route, member = left_of_route(plan, place), missions.members[name]
-        return self._sent(
-            name,
-            sent_from(member, plan, route, place),
-            f"{name} goes another way from {place:.1f} m",
-        )
+        return sent_from(missions.members[name], plan, left_of_route(plan, place), place)
 
     def _sent(self, name: str, mission: Mission, words: str) -> FleetUnderWay:
         """With a robot that has another mission from now on."""

@@ -23,6 +23,8 @@ from viaspline.fleet.execution.ways_in_the_air import (
     laid_from_hover,
     rest_of_flight,
 )
+from viaspline.fleet.laying.resting_places import RestingPlace
+from viaspline.fleet.space.hover_places import HoverPlace
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import Route
@@ -55,6 +57,22 @@ def sent_from(member: FleetMember, plan: AnyPlan, route: Route, place: float) ->
     if isinstance(plan, SpatialPlan):
         return from_where_it_hovers(plan, route, place)
     return from_where_it_stands(member.mission, route, plan.path, place)
+
+
+def around_now(
+    fleet: DrivenFleet, state: FleetProgressState, missions: FleetMissions, name: str
+) -> tuple[RestingPlace, ...] | tuple[HoverPlace, ...]:
+    """Where the others rest or hover, now or later.
+
+    Args:
+        fleet: What is driven.
+        state: How far it has come.
+        missions: Of the robots.
+        name: The robot that is laid among them.
+    """
+    if fleet.flies:
+        return tuple(hovers_now(fleet, state, missions, name))
+    return rests_now(fleet, state, missions, name).places
 
 
 def laid_now(
