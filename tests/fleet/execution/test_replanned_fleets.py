@@ -11,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
-from viaspline.errors import GeometryError, PlanningError
+from viaspline.errors import GaveUpError, GeometryError, PlanningError
 from viaspline.fleet.execution import fleet_under_way
+from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
 from viaspline.fleet.execution.ways_from_rest import rest_of_route
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.route_spec import Route
@@ -240,6 +241,30 @@ def test_who_has_no_way_round_a_dead_robot_stays_and_is_named(
     drive.place["r0"] = 0.0
     drive.until(120.0, dead=("r0",))
     assert drive.nav.reached
+
+
+def test_robots_in_each_others_way_dont_take_turns_for_ever(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Seed 447 of the crowds: one had no way, and who stood behind it got one again and again."""
+    behind = {"start": [20, -24], "goal": [24, 24], "depart_s": 2}
+    drive = start(*CROSS, behind)
+    drive.until(2.0)
+    drive.take(drive.nav.dead("r0", 40.0))
+    drive.until(60.0, dead=("r0",))
+    assert drive.nav.blocked == {"r1": "r0", "r2": "r1"}
+    laid: list[str] = []
+
+    def laid_anew(fleet: FleetUnderWay, name: str) -> FleetUnderWay:
+        laid.append(name)
+        if name == "r1":
+            raise GaveUpError("'r2' is in its way", where=np.zeros(2), remedy="", tried=())
+        return fleet
+
+    monkeypatch.setattr(FleetUnderWay, "_laid_anew", laid_anew)
+    events = drive.nav.replanned().events
+    assert laid == ["r1", "r2", "r1"]
+    assert [(one.kind, one.name) for one in events if one.name == "r1"] == [("has no way", "r1")]
 
 
 def test_a_robot_is_sent_elsewhere_from_where_it_was_asked_to_stop() -> None:

@@ -5,7 +5,7 @@ Tested through ``fleet/execution/test_replanned_fleets``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -109,11 +109,15 @@ class FleetUnderWay:
         return self._sent(name, mission, f"{name} is sent elsewhere from {along:.1f} m")
 
     def replanned(self) -> FleetUnderWay:
-        """With other paths for those that wait for a dead robot, from where they stand."""
-        now, failed = self, dict[str, FleetEvent]()
-        while name := now._next_of(failed):
+        """With other paths for those that wait for a dead robot, from where they stand.
+
+        Each of them gets another path once: two that are in each other's way would take turns.
+        """
+        now, failed, laid = self, dict[str, FleetEvent](), set[str]()
+        while name := now._next_of(failed, laid):
             try:
                 now = now._laid_anew(name)
+                laid.add(name)
                 failed.clear()  # who found no way may find one now
             except (PlanningError, GeometryError) as error:
                 failed[name] = FleetEvent("has no way", self.now, name, str(error))
@@ -137,12 +141,13 @@ class FleetUnderWay:
         """Those that never get on any more."""
         return tuple(self.fleet.names[k] for k in np.flatnonzero(self.state.out).tolist())
 
-    def _next_of(self, failed: Mapping[str, FleetEvent]) -> str | None:
+    def _next_of(self, failed: Mapping[str, FleetEvent], laid: Set[str]) -> str | None:
         """Who is to be laid anew next: it waits for one that never gets on, or in another's way."""
         stuck, others = self.state.stuck(), self.state.orders.packed.other
         blocked = np.flatnonzero(stuck >= 0).tolist()
         names, members = self.fleet.names, self.known.members
-        ready = [r for r in blocked if names[r] not in failed and self.stands(r)]
+        left = [r for r in blocked if names[r] not in failed and names[r] not in laid]
+        ready = [r for r in left if self.stands(r)]
         direct = [r for r in ready if self.state.out[others[stuck[r]]]]
         chosen = direct or (ready if failed else [])
         if not chosen:
