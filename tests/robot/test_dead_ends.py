@@ -12,9 +12,11 @@ from hypothesis import strategies as st
 from scipy.ndimage import label
 
 from viaspline.mission.model import Mission
+from viaspline.robot.navigator import Navigator
 from viaspline.robot.replanning import deadline
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
+from viaspline.robot.state import RobotState
 
 Wall = tuple[float, float, float, float]
 
@@ -136,3 +138,56 @@ def test_a_robot_that_has_no_time_to_search_stays_clear_and_gets_out_later(
     run = drive(walls, {}, 0.01, seed)
     assert_it_goes_where_the_flood_goes(walls, run)
     assert all(replan.work <= deadline.MAX_STANDING_WORK_S for replan in run.replans)
+
+
+LONGEST_DRIVE_S = 240.0
+"""More than any of the drives to a closed door takes [s]."""
+
+
+def drive_to_closed_door(jerk: float | None, sight: float, aside: float) -> Run:
+    """A car that sees late that a door is closed; another one is open, but it can't turn there."""
+    walls = [[-8.0, -2.8], [2.5, 30.0]]
+    known = [{"polygon": [[-0.3, a], [0.3, a], [0.3, b], [-0.3, b]]} for a, b in walls]
+    mission = Mission.model_validate(
+        {
+            "world": {
+                "bounds": [-15, -8, 15, 40],
+                "known": known,
+                "unseen": [{"circle": {"center": [0, -0.15], "radius": 2.2}}],
+            },
+            "robot": {
+                "clearance_m": 0.3, "max_speed_mps": 1.6, "max_lateral_accel_mps2": 0.8,
+                "max_jerk_mps3": jerk,
+                "drive": {"ackermann": {"wheelbase_m": 1.0, "max_steer_deg": 32.0},
+                          "delay_s": 0.1, "lag_s": 0.1},
+                "sensor": {"lidar": {"range_m": sight, "fov_deg": 120.0}},
+            },
+            "route": {"start": [-10.5, aside], "goal": [10.5, -2]},
+        }
+    )  # fmt: skip
+    step = Navigator.step
+
+    def timed(nav: Navigator, state: RobotState, sensed: Any, time: float) -> Any:
+        assert time < LONGEST_DRIVE_S, "neither goes on nor says that it can't"
+        return step(nav, state, sensed, time)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Navigator, "step", timed)
+        return simulate(mission)
+
+
+@pytest.mark.parametrize("jerk", [None, 2.0])
+def test_a_car_before_a_closed_door_says_that_it_finds_no_way_on(jerk: float | None) -> None:
+    """With a limit of the jerk it had crept on by half a millimetre after every search, for ever."""
+    run = drive_to_closed_door(jerk, 3.0, 1.16)
+    assert not run.reached and run.reason is not None and "turning circle" in run.reason
+
+
+@pytest.mark.slow
+@settings(max_examples=4, deadline=None, derandomize=True)
+@given(st.floats(0.5, 3.0), st.floats(3.0, 8.0), st.floats(-1.5, 1.5))
+def test_a_car_before_a_closed_door_gets_on_or_says_that_it_cannot(
+    jerk: float, sight: float, aside: float
+) -> None:
+    run = drive_to_closed_door(jerk, sight, aside)
+    assert run.reached or run.reason

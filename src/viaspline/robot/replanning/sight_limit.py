@@ -33,8 +33,8 @@ def within_sight(
     """
     belief, path, here = knowledge.belief, schedule.path, progress.distance
     assert belief is not None
-    if not is_due(task, progress, knowledge, schedule):
-        return replace(schedule, wait=None)
+    if not is_due(task, progress, knowledge, schedule):  # who found no way on still knows of none
+        return schedule if schedule.is_blocked else replace(schedule, wait=None)
     schedule = rescheduled_by_sight(task, progress, knowledge, schedule, speed)
     if schedule.is_blocked:
         return schedule
