@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.trajectory.interior_point import Seam
 from viaspline.trajectory.lap import retime_lap
 from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.motion_ends import Seam
 from viaspline.trajectory.retime import retime
 
 seeds = st.integers(0, 2**32 - 1)

@@ -9,18 +9,15 @@ Tested through ``trajectory/test_jerk``.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.timing.speed_barrier import (
-    BarrierTerms,
-    barrier_least,
-    barrier_limit,
-    barrier_value,
-    motion_time,
-)
+from viaspline.kernels.timing.barrier_newton import barrier_limit
+from viaspline.kernels.timing.barrier_settling import barrier_lack, barrier_settled
+from viaspline.kernels.timing.speed_barrier import BarrierTerms, barrier_value, motion_time
+from viaspline.trajectory.joined_rows import joined_ends, joined_rows, places_in_bands
+from viaspline.trajectory.motion_ends import Even, Moving, Rest, Rows, Seam
 
 DUALITY_GAP = 1e-4
 """What the barrier keeps of the time, at most, as a part of it."""
@@ -31,51 +28,7 @@ MAX_NEWTON_STEPS = 60
 LOOSER, NEARER = 40, 8
 """Rounds in which a motion that keeps every limit is sought, and Newton's steps in each."""
 
-INTERIOR_SHARE = 0.998
-"""Part of the limits that is planned with."""
-
 _GAUSS = (0.21132486540518713, 0.7886751345948129)
-
-
-class Rest(NamedTuple):
-    """The motion begins or ends at rest, with a stretch of constant jerk beside it."""
-
-
-class Moving(NamedTuple):
-    """The motion begins at a speed.
-
-    Attributes:
-        square: v² [m²/s²], above 0.
-        accel: [m/s²].
-    """
-
-    square: float
-    accel: float
-
-
-class Even(NamedTuple):
-    """The motion ends at any speed, without acceleration."""
-
-
-class Seam(NamedTuple):
-    """The motion goes on at its start where it ends."""
-
-
-@dataclass(frozen=True)
-class Rows:
-    """Limits p · (a0, a1, w0, m, w1) <= g of each stretch: its ends and its middle coefficient.
-
-    Attributes:
-        weights: Shape (n, k, 5).
-        limits: Shape (n, k), above 0.
-    """
-
-    weights: Floats
-    limits: Floats
-
-    def spared(self) -> Rows:
-        """The rows with a little less, so that a robot that is re-planned under way has room."""
-        return Rows(self.weights, self.limits * INTERIOR_SHARE)
 
 
 @dataclass(frozen=True)
@@ -125,10 +78,10 @@ class SpeedProblem:
             0 if isinstance(start, Seam) else 1, widths.size - (1 if isinstance(end, Rest) else 0)
         )
         h, n = widths[inner], widths[inner].size
-        ends = _joined_ends(widths, h, start, end)
+        ends = joined_ends(widths, h, start, end)
         near = np.stack((np.arange(-1, n - 1), np.arange(n), np.arange(1, n + 1)), axis=1)
         near[0, 0], near[-1, 2] = (n - 1, 0) if isinstance(start, Seam) else (n, n + 1)
-        linear, limits, first = _joined_rows(widths, rows, jerk, ends, start, end, inner)
+        linear, limits, first = joined_rows(widths, rows, jerk, ends, start, end, inner)
         x = np.array(_GAUSS)[:, None, None]
         at = (1 - x) ** 2 * ends[:, 2] + 2 * x * (1 - x) * ends[:, 3] + x * x * ends[:, 4]
         rests = []
@@ -139,7 +92,7 @@ class SpeedProblem:
         order = np.arange(n)
         if isinstance(start, Seam):  # both ends of the line beside each other, and so on
             order = np.where(2 * order < n, 2 * order, 2 * (n - 1 - order) + 1)
-        places, bands = _places(near, order)
+        places, bands = places_in_bands(near, order)
         before = start.square + start.accel * widths[0] if isinstance(start, Moving) else 0.0
         return cls(
             h, near, float(before), np.full(n, jerk), ends, linear, limits, first,
@@ -177,46 +130,15 @@ class SpeedProblem:
     def settled(self, m: Floats) -> tuple[SpeedProblem, Floats]:
         """From any m above 0 one that keeps every limit strictly, or as nearly as is found.
 
-        Limits that are not kept are widened so that they are; from the middle of what that allows
-        they are narrowed again, as far as they are kept there.
-
         Returns:
             The problem, with limits that are widened where they have to be, and m.
         """
-        scale = _sizes(self.limits)
-        wide, best, least, lost = self, (self, m), np.inf, 0
-        for k in range(LOOSER):
-            off = self.lacks(m)
-            if off == 0.0 and self.value(m, 1.0) < np.inf:
-                return self, m
-            wide = wide.narrowed(self, m, scale, *((0.3, 1e-6) if k else (0.0, 0.05)))
-            lost = 0 if off < 0.9 * least else lost + 1
-            if off < least:
-                best, least = (wide, m), off
-            if lost > 8:
-                break
-            m = wide.centred(m, 2e-3 * self.asked / self.time(m), NEARER)
-        return best
+        limits, jerk, found = barrier_settled(self.terms, m, LOOSER, NEARER)
+        return replace(self, limits=np.asarray(limits), jerk=np.asarray(jerk)), np.asarray(found)
 
     def lacks(self, m: Floats) -> float:
         """By what parts of them limits are not kept, in all."""
-        linear, jerk, _ = self.slacks(m)
-        off = float(np.maximum(-linear / _sizes(self.limits), 0.0).sum())
-        return off + 0.01 * float(np.maximum(-jerk / self.jerk[:, None], 0.0).sum())
-
-    def narrowed(
-        self, true: SpeedProblem, m: Floats, scale: Floats, share: float, least: float
-    ) -> SpeedProblem:
-        """The problem with limits nearer to the true ones, that are still kept."""
-        linear, jerk, _ = self.slacks(m)
-        used, spent = self.limits - linear, self.jerk - jerk.min(axis=1)
-        room = np.maximum(share * linear, least * scale)
-        rate = np.maximum(share * (self.jerk - spent), least * true.jerk)
-        return replace(
-            self,
-            limits=np.maximum(true.limits, used + room),
-            jerk=np.maximum(true.jerk, spent + rate),
-        )
+        return float(barrier_lack(self.terms, m))
 
     def excess(self, m: Floats, true: SpeedProblem) -> tuple[Floats, Floats]:
         """By what parts linear limits and the jerk of every stretch are beyond true ones, (n,)."""
@@ -232,18 +154,9 @@ class SpeedProblem:
             )
         )
 
-    @property
-    def asked(self) -> int:
-        """How many limits there are: two of the jerk at three places of each stretch, and rows."""
-        return 6 * self.widths.size + self.limits.size
-
     def value(self, m: Floats, sharpness: float) -> float:
         """What the barrier makes least; inf where a limit isn't kept strictly."""
         return float(barrier_value(self.terms, m, sharpness))
-
-    def centred(self, m: Floats, sharpness: float, rounds: int) -> Floats:
-        """The least of the barrier function from m on, by Newton's method."""
-        return np.asarray(barrier_least(self.terms, m, sharpness, rounds))
 
     @property
     def terms(self) -> BarrierTerms:
@@ -258,89 +171,3 @@ class SpeedProblem:
 def _sizes(limits: Floats) -> Floats:
     """What limits are compared with."""
     return np.asarray(np.maximum(np.abs(limits), 1e-6))
-
-
-def _joined_ends(
-    widths: Floats, h: Floats, start: Rest | Moving | Seam, end: Rest | Even | Seam
-) -> Floats:
-    """a0, a1, w0, m, w1 of stretches by the coefficients they know, shape (n, 5, 3)."""
-    ends = np.zeros((h.size, 5, 3))
-    ends[:, 3, 1] = 1.0
-    both = h[:-1] + h[1:]
-    ends[1:, 0, 0], ends[1:, 0, 1] = -1.0 / both, 1.0 / both
-    ends[1:, 2, 0], ends[1:, 2, 1] = h[1:] / both, h[:-1] / both
-    ends[:-1, 1, 1:], ends[:-1, 4, 1:] = ends[1:, 0, :2], ends[1:, 2, :2]
-    if isinstance(start, Rest):
-        rest = 1.5 * widths[0]
-        ends[0, 0, 1], ends[0, 2, 1] = 1.0 / (rest + h[0]), rest / (rest + h[0])
-    else:
-        before = widths[0] if isinstance(start, Moving) else h[-1]
-        whole = before + h[0]
-        ends[0, 0, :2] = -1.0 / whole, 1.0 / whole
-        ends[0, 2, :2] = h[0] / whole, before / whole
-    if isinstance(end, Rest):
-        rest = 1.5 * widths[-1]
-        ends[-1, 1, 1], ends[-1, 4, 1] = -1.0 / (rest + h[-1]), rest / (rest + h[-1])
-    elif isinstance(end, Even):
-        ends[-1, 4, 1] = 1.0
-    else:
-        ends[-1, 1, 1:], ends[-1, 4, 1:] = ends[0, 0, :2], ends[0, 2, :2]
-    return ends
-
-
-def _joined_rows(
-    widths: Floats, rows: Rows, jerk: float, ends: Floats, start: Rest | Moving | Seam,
-    end: Rest | Even | Seam, inner: slice,
-) -> tuple[Floats, Floats, Ints]:  # fmt: skip
-    """All rows that ask for something, with right-hand sides, and where each stretch's begin."""
-    inside = np.einsum("nkz,nzc->nkc", rows.weights[inner], ends)
-    more, bound = _outer_rows(widths, rows, jerk, ends, start, end)
-    limits = np.concatenate((rows.limits[inner], bound), axis=1)
-    asks = limits < np.inf
-    first = np.concatenate(([0], np.cumsum(asks.sum(axis=1))))
-    return np.concatenate((inside, more), axis=1)[asks], limits[asks], first
-
-
-def _outer_rows(
-    widths: Floats, rows: Rows, jerk: float, ends: Floats, start: Rest | Moving | Seam,
-    end: Rest | Even | Seam,
-) -> tuple[Floats, Floats]:  # fmt: skip
-    """What the stretches beside the ends ask of their neighbours, with right-hand sides."""
-    n, many = ends.shape[0], rows.limits.shape[1]
-    more = np.zeros((n, 3 + 2 * many, 3))
-    bound = np.full(more.shape[:2], np.inf)
-    more[:, 0, 1], bound[:, 0] = -1.0, 0.0
-    beside = [(0, 0, 0)] if isinstance(start, Rest) else []
-    beside += [(-1, -1, 1)] if isinstance(end, Rest) else []
-    for inner, outer, at in beside:
-        k = slice(3 + at * many, 3 + (at + 1) * many)
-        moving = np.zeros((5, 3))
-        moving[1 - at], moving[2 if at else 4] = ends[inner, at], ends[inner, 4 if at else 2]
-        more[inner, k], bound[inner, k] = rows.weights[outer] @ moving, rows.limits[outer]
-        more[inner, 1] = ends[inner, 4 if at else 2]
-        bound[inner, 1] = (4.5 * widths[outer] ** 2 * jerk) ** (2.0 / 3.0)
-    if isinstance(start, Moving):
-        k, first = slice(3, 3 + many), widths[0]
-        moving = np.zeros((5, 3))
-        moving[1], moving[4] = ends[0, 0], ends[0, 2]
-        middle = start.square + start.accel * first
-        given = rows.weights[0] @ np.array([start.accel, 0.0, start.square, middle, 0.0])
-        free = np.any(rows.weights[0][:, [1, 4]] != 0.0, axis=1)
-        more[0, k] = rows.weights[0] @ moving
-        bound[0, k] = np.where(free, rows.limits[0] - given, np.inf)
-        rise = start.accel + 1.5 * jerk * first / np.sqrt(start.square)  # no stretch reaches it
-        room = jerk * first / np.sqrt(max(start.square, middle, middle + rise * first))
-        more[0, 1], bound[0, 1] = ends[0, 0], room + start.accel
-        more[0, 2], bound[0, 2] = -ends[0, 0], room - start.accel
-    return more, bound
-
-
-def _places(near: Ints, order: Ints) -> tuple[Ints, int]:
-    """Where the products of two coefficients go in the lower bands; the last place is for none."""
-    n = order.size
-    place = np.append(order, (-1, -1))[near]
-    row, column = place[:, :, None], place[:, None, :]
-    apart = row - column
-    valid = (row >= 0) & (column >= 0) & (apart >= 0)
-    bands = int(apart[valid].max()) + 1
-    return np.where(valid, apart * n + column, bands * n), bands

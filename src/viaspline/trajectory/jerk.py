@@ -13,10 +13,10 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing import time_grid
 from viaspline.trajectory.cells import Cells, CellSize
 from viaspline.trajectory.coupled import Profile, Stage, caps_of_cells, jump_caps
-from viaspline.trajectory.interior_point import Even, Moving, Rest, Rows, Seam
 from viaspline.trajectory.jerk_limited import JerkLimitedMotion, smoothest, smoothest_from
 from viaspline.trajectory.limited_path import LimitedCubicPath, LimitedPath
 from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.motion_ends import Even, Moving, Rest, Rows, Seam
 from viaspline.trajectory.motion_pieces import time_into
 from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory

@@ -26,7 +26,8 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.crawl import slowed_to_crawl
-from viaspline.trajectory.interior_point import Even, Moving, Rest, Rows, Seam, SpeedProblem
+from viaspline.trajectory.interior_point import SpeedProblem
+from viaspline.trajectory.motion_ends import Even, Moving, Rest, Rows, Seam
 
 GUESS_STEPS = 400  # of the guess
 GUESSES = ((0.5, 0.6), (0.95, 0.95))

@@ -14,11 +14,11 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.trajectory.cells import Cells
 from viaspline.trajectory.coupled import Profile, Stage
-from viaspline.trajectory.interior_point import Rest, Seam
 from viaspline.trajectory.jerk import Section, fine_path, joined, reachable, smooth_law
 from viaspline.trajectory.jerk_limited import JerkLimitedMotion, smoothest, smoothest_lap
 from viaspline.trajectory.limited_path import LimitedPath
 from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.motion_ends import Rest, Seam
 from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from viaspline.handed_in import check_answers
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.curvature_limited import Cubic
-from viaspline.trajectory.interior_point import Seam
 from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.motion_ends import Seam
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 

@@ -13,11 +13,11 @@ from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.cells import Evaluable
 from viaspline.trajectory.coupled import Stage
 from viaspline.trajectory.curvature_limited import Cubic
-from viaspline.trajectory.interior_point import Seam
 from viaspline.trajectory.jerk import smooth_law
 from viaspline.trajectory.jerk_limited_lap import smooth_lap
 from viaspline.trajectory.limited_path import LimitedCubicPath, crawl, limited_path_of
 from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.motion_ends import Seam
 from viaspline.trajectory.seam import checked_lap, lap_profile, once_a_lap
 from viaspline.trajectory.slow_zones import Slow, slow_between
 from viaspline.trajectory.trajectory import Trajectory

@@ -1,4 +1,4 @@
-"""The barrier of the fastest v² with a limit of the jerk, and Newton's method for it.
+"""The barrier of the fastest v² with a limit of the jerk, and its derivatives.
 
 What is sought are coefficients of v² on the stretches of a path: a stretch knows its own, the one
 before it and the one after it, and all that is asked of it is a function of these three. So the
@@ -15,11 +15,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inlined, inner, kernel
 
-LEAST_DROP = 1e-8  # of the barrier in a step that is worth it, as a part of 1 + its value
-LEAST_PART = 1e-8  # of a step
-KEPT_DROP = 0.1  # part of what a step promises that it has to keep
 LEAST_PRODUCT, MOST_PRODUCT = 1e-150, 1e150  # of what is left, before its logarithm is taken
-REGULAR = 1e-14  # part of every entry of a matrix's diagonal that is added to it
 
 
 Sums = tuple[float, float, float, float, float, float, float, float, float]
@@ -65,20 +61,20 @@ class BarrierTerms(NamedTuple):
 
 
 @inlined
-def _known(terms: BarrierTerms, m: Floats, i: int, c: int) -> float:
+def known(terms: BarrierTerms, m: Floats, i: int, c: int) -> float:
     """One of the three coefficients that a stretch knows."""
     k, n = terms.near[i, c], m.shape[0]
     return m[k] if k < n else (terms.before if k == n else 0.0)
 
 
 @inlined
-def _row(rows: Floats, k: int, x: float, y: float, z: float) -> float:
+def of_row(rows: Floats, k: int, x: float, y: float, z: float) -> float:
     """A row with the three coefficients."""
     return rows[k, 0] * x + rows[k, 1] * y + rows[k, 2] * z
 
 
 @inlined
-def _at(rows: Floats, i: int, j: int, x: float, y: float, z: float) -> float:
+def square_at(rows: Floats, i: int, j: int, x: float, y: float, z: float) -> float:
     """v² at one of several places of a stretch, by the three coefficients."""
     return rows[i, j, 0] * x + rows[i, j, 1] * y + rows[i, j, 2] * z
 
@@ -93,27 +89,27 @@ def _with_room(logs: float, left: float, room: float) -> tuple[float, float]:
 
 
 @inner
-def _value(terms: BarrierTerms, m: Floats, sharpness: float) -> float:
+def value_of(terms: BarrierTerms, m: Floats, sharpness: float) -> float:
     """What the barrier makes least; inf where a limit isn't kept strictly."""
     time, logs, left = 0.0, 0.0, 1.0
     for i in range(m.shape[0]):
         if not m[i] > 0.0:
             return np.inf
-        x, y, z = _known(terms, m, i, 0), _known(terms, m, i, 1), _known(terms, m, i, 2)
+        x, y, z = known(terms, m, i, 0), known(terms, m, i, 1), known(terms, m, i, 2)
         for k in range(terms.first[i], terms.first[i + 1]):
-            room = terms.limits[k] - _row(terms.rows, k, x, y, z)
+            room = terms.limits[k] - of_row(terms.rows, k, x, y, z)
             if not room > 0.0:
                 return np.inf
             logs, left = _with_room(logs, left, room)
-        steep = _row(terms.change, i, x, y, z)
+        steep = of_row(terms.change, i, x, y, z)
         for j in range(3):
-            square = _at(terms.squares, i, j, x, y, z)
+            square = square_at(terms.squares, i, j, x, y, z)
             room = terms.jerk[i] * terms.jerk[i] - steep * steep * square
             if not (square >= 0.0 and room > 0.0):
                 return np.inf
             logs, left = _with_room(logs, left, room)
         for j in range(2):
-            square = _at(terms.gauss, i, j, x, y, z)
+            square = square_at(terms.gauss, i, j, x, y, z)
             if not square > 0.0:
                 return np.inf
             time += 0.5 * terms.widths[i] / math.sqrt(square)
@@ -132,7 +128,7 @@ def _curved(x: float, y: float, z: float, first: float, second: float, sums: Sum
 
 
 @inner
-def _derivatives(
+def derivatives(
     terms: BarrierTerms, m: Floats, sharpness: float, gradient: Floats, bands: Floats
 ) -> None:
     """Gradient (n,) and a positive definite second derivative, in lower bands laid flat."""
@@ -142,14 +138,14 @@ def _derivatives(
     gradient.fill(0.0)
     bands.fill(0.0)
     for i in range(n):
-        x, y, z = _known(terms, m, i, 0), _known(terms, m, i, 1), _known(terms, m, i, 2)
+        x, y, z = known(terms, m, i, 0), known(terms, m, i, 1), known(terms, m, i, 2)
         sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         for k in range(terms.first[i], terms.first[i + 1]):
-            push = 1.0 / (terms.limits[k] - _row(rows, k, x, y, z))
+            push = 1.0 / (terms.limits[k] - of_row(rows, k, x, y, z))
             sums = _curved(rows[k, 0], rows[k, 1], rows[k, 2], push, push * push, sums)
-        steep, most = _row(change, i, x, y, z), terms.jerk[i]
+        steep, most = of_row(change, i, x, y, z), terms.jerk[i]
         for j in range(3):
-            root = math.sqrt(_at(squares, i, j, x, y, z))
+            root = math.sqrt(square_at(squares, i, j, x, y, z))
             tilt = 0.5 * steep / root
             under, above = 1.0 / (most - steep * root), 1.0 / (most + steep * root)
             p = root * change[i, 0] + tilt * squares[i, j, 0]
@@ -157,7 +153,7 @@ def _derivatives(
             r = root * change[i, 2] + tilt * squares[i, j, 2]
             sums = _curved(p, q, r, under - above, under * under + above * above, sums)
         for j in range(2):
-            square = _at(gauss, i, j, x, y, z)
+            square = square_at(gauss, i, j, x, y, z)
             push = 0.25 * sharpness * terms.widths[i] / (square * math.sqrt(square))
             p, q, r = gauss[i, j, 0], gauss[i, j, 1], gauss[i, j, 2]
             sums = _curved(p, q, r, -push, 1.5 * push / square, sums)
@@ -181,75 +177,16 @@ def _derivatives(
 
 
 @inner
-def _solved(bands: Floats, count: int, n: int, right: Floats) -> bool:
-    """Solve for a right-hand side in place, by Cholesky; False if the matrix isn't definite."""
-    for j in range(n):
-        if not bands[j] > 0.0:
-            return False
-        bands[j] = math.sqrt(bands[j])
-        last = min(count - 1, n - 1 - j)
-        for k in range(1, last + 1):
-            bands[k * n + j] /= bands[j]
-        for k in range(1, last + 1):
-            for i in range(k, last + 1):
-                bands[(i - k) * n + j + k] -= bands[i * n + j] * bands[k * n + j]
-    for j in range(n):
-        for k in range(1, min(count - 1, j) + 1):
-            right[j] -= bands[k * n + j - k] * right[j - k]
-        right[j] /= bands[j]
-    for j in range(n - 1, -1, -1):
-        for k in range(1, min(count - 1, n - 1 - j) + 1):
-            right[j] -= bands[k * n + j] * right[j + k]
-        right[j] /= bands[j]
-    return True
-
-
-@inner
-def _time(terms: BarrierTerms, m: Floats) -> float:
+def time_of(terms: BarrierTerms, m: Floats) -> float:
     """How long a motion takes, but for what lies before a start at a speed [s]."""
     time = 0.0
     for i in range(m.shape[0]):
-        x, y, z = _known(terms, m, i, 0), _known(terms, m, i, 1), _known(terms, m, i, 2)
+        x, y, z = known(terms, m, i, 0), known(terms, m, i, 1), known(terms, m, i, 2)
         for j in range(2):
-            time += 0.5 * terms.widths[i] / math.sqrt(_at(terms.gauss, i, j, x, y, z))
+            time += 0.5 * terms.widths[i] / math.sqrt(square_at(terms.gauss, i, j, x, y, z))
     for r in range(terms.rests.shape[0]):
         time += terms.rests[r, 1] / math.sqrt(m[int(terms.rests[r, 0])])
     return time
-
-
-@inner
-def _least(terms: BarrierTerms, m: Floats, sharpness: float, rounds: int) -> Floats:
-    """The least of the barrier, from coefficients on that keep every limit strictly."""
-    n = m.shape[0]
-    m, new = m.copy(), np.empty(n)
-    gradient, right, step = np.empty(n), np.empty(n), np.empty(n)
-    bands = np.empty(terms.bands * n + 1)
-    value = _value(terms, m, sharpness)
-    for _ in range(rounds):
-        _derivatives(terms, m, sharpness, gradient, bands)
-        for i in range(n):
-            right[terms.order[i]] = gradient[i]
-            bands[i] += REGULAR * bands[i]  # beside a cusp they are 1e20 times those elsewhere
-        if not _solved(bands, terms.bands, n, right):
-            break
-        drop = 0.0
-        for i in range(n):
-            step[i] = -right[terms.order[i]]
-            drop += gradient[i] * step[i]
-        if not drop <= -LEAST_DROP * (1.0 + abs(value)):
-            break
-        part, least = 1.0, np.inf
-        while part > LEAST_PART:
-            for i in range(n):
-                new[i] = m[i] + part * step[i]
-            least = _value(terms, new, sharpness)
-            if least <= value + KEPT_DROP * part * drop:
-                break
-            part *= 0.5
-        if part <= LEAST_PART:
-            break
-        m, new, value = new, m, least
-    return m
 
 
 @kernel
@@ -264,7 +201,7 @@ def barrier_value(terms: BarrierTerms, m: Floats, sharpness: float) -> float:
     Returns:
         inf where a limit isn't kept strictly.
     """
-    return _value(terms, m, sharpness)
+    return value_of(terms, m, sharpness)
 
 
 @kernel
@@ -278,46 +215,4 @@ def motion_time(terms: BarrierTerms, m: Floats) -> float:
     Returns:
         nan or inf where the robot doesn't get on.
     """
-    return _time(terms, m)
-
-
-@kernel
-def barrier_least(terms: BarrierTerms, m: Floats, sharpness: float, rounds: int) -> Floats:
-    """The least of the barrier, from coefficients on that keep every limit strictly.
-
-    Args:
-        terms: What is asked.
-        m: Coefficients to begin with [m²/s²], shape (n,).
-        sharpness: Of the barrier.
-        rounds: Newton's steps, at most.
-
-    Returns:
-        The coefficients, (n,).
-    """
-    return _least(terms, m, sharpness, rounds)
-
-
-@kernel
-def barrier_limit(
-    terms: BarrierTerms, m: Floats, first: float, growth: float, gap: float, rounds: int
-) -> Floats:
-    """Coefficients of the fastest motion, from some on that keep every limit strictly.
-
-    Args:
-        terms: What is asked.
-        m: Coefficients to begin with [m²/s²], shape (n,).
-        first: How sharp the barrier is at first, times what is asked over the time,
-        growth: and by what it gets sharper,
-        gap: until it keeps no more than this part of the time.
-        rounds: Newton's steps each time, at most.
-
-    Returns:
-        The coefficients, (n,).
-    """
-    asked = 6.0 * m.shape[0] + terms.limits.shape[0]  # of the jerk at three places, either way
-    sharpness = first * asked / _time(terms, m)
-    while True:
-        m = _least(terms, m, sharpness, rounds)
-        if not asked >= gap * sharpness * _time(terms, m):
-            return m
-        sharpness *= growth
+    return time_of(terms, m)
