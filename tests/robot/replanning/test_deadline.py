@@ -124,6 +124,33 @@ def test_a_robot_brakes_when_its_time_to_search_is_up(
     assert early < late
 
 
+@pytest.mark.parametrize("limit", [{}, {"max_jerk_mps3": 2.0}])
+def test_a_robot_whose_time_is_up_goes_on_searching_while_it_brakes(
+    mission_of: Make, disc_at: Shape, monkeypatch: pytest.MonkeyPatch, limit: dict[str, float]
+) -> None:
+    """It had looked for nothing from then on until it stood."""
+    monkeypatch.setattr(deadline, "STEP_WORK_S", 1e-3)
+    mission = mission_of(
+        [0, 0], [20, 0], [50, 0], unseen=[disc_at(35, 0.3, 2, "rock")],
+        sensor={"range_m": 25}, max_replan_s=0.3, **limit,
+    )  # fmt: skip
+    navs = steps_of(mission)
+    begun = next(k for k, nav in enumerate(navs) if nav.searches)
+    end = begun + next(k for k, nav in enumerate(navs[begun:]) if not nav.searches)
+    braking = [
+        (nav, nav.reference((k + 1) * STEP).speed)
+        for k, nav in enumerate(navs[:end])
+        if k * STEP > begun * STEP + 0.3 + STEP
+    ]
+    speeds = [speed for _, speed in braking if speed > 0.0]
+    assert len(speeds) > 3
+    assert (np.diff(speeds) < 0.0).all()
+    assert any(nav.work > 0.0 for nav, speed in braking if speed > 0.0)
+    stop = navs[begun + 8].trajectory.distances[-1]
+    assert stop < 35.0 - 2.0 - mission.robot.clearance_m
+    assert navs[-1].reached
+
+
 def test_the_world_goes_on_while_a_robot_thinks(mission_of: Make, disc_at: Shape) -> None:
     mission = cramped(mission_of, disc_at)
     first, second = simulate(mission), simulate(mission)

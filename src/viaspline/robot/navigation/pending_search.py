@@ -85,6 +85,7 @@ class PendingSearch:
         doubt: What it was found to pass on another side, if that is not decided yet.
         leave: Where alone the path so far is left meanwhile [m], if that is settled: a robot that
             never turns on the spot may have no way on from where it will stand.
+        brakes: Whether the robot brakes already, for the time that it may search for is up.
     """
 
     since: float
@@ -96,6 +97,7 @@ class PendingSearch:
     free_until: float = math.inf
     doubt: SideInDoubt | None = None
     leave: float | None = None
+    brakes: bool = False
 
     def with_new(self, new: World) -> PendingSearch:
         """The search with what has just been seen: that may bar what was tried, so it begins anew.

@@ -108,7 +108,10 @@ def gone_on(
             begin_with, again, doubt = FIRST_STAGE, context.progress.time + pause, None
         so_far = SearchSoFar(STANDING_WORK_S, 0.0, world, budget.finished)
         free, leave = context.obstruction.free_until, _settled_leave(context, again)
-        return PendingSearch(since, obstacles, names, begin_with, so_far, again, free, doubt, leave)
+        return PendingSearch(
+            since, obstacles, names, begin_with, so_far, again, free, doubt, leave,
+            brakes=must_brake(context),
+        )  # fmt: skip
     spent = budget.spent + (0.0 if before is None else before.so_far.spent)
     is_further = budget.has_gained and (before is None or before.so_far.world is world)
     limit = max(budget.limit if is_further else 2.0 * budget.limit, STANDING_WORK_S)
@@ -144,12 +147,28 @@ def is_paused(context: ReplanContext, free: float) -> bool:
     pending = context.schedule.pending
     if pending is None or context.speed == 0.0:
         return False
+    if must_brake(context) and not pending.brakes:
+        return False
     return context.progress.time < pending.again and free >= pending.free_until
 
 
 def must_brake(context: ReplanContext) -> bool:
     """Whether the robot has searched for as long as ``max_replan_s`` lets it under way."""
-    return context.speed > 0.0 and _left(context) <= 0.0
+    longest, pending = context.task.mission.robot.max_replan_s, context.schedule.pending
+    if longest is None or pending is None or context.speed == 0.0:
+        return False
+    return longest - (context.progress.time - pending.since) <= 0.0
+
+
+def stopping_place(context: ReplanContext) -> float:
+    """Where the robot stops whose time to search is up [m]: it brakes as soon as it can.
+
+    It goes on to search on its way there: nothing is nearer by then than it would have been.
+    """
+    pending = context.schedule.pending
+    if pending is not None and pending.brakes:
+        return context.schedule.held_at
+    return min(context.stop, context.schedule.held_at)
 
 
 def last_place(context: ReplanContext) -> float:
@@ -190,8 +209,11 @@ def _until_next_command(context: ReplanContext) -> float:
 
 
 def _left(context: ReplanContext) -> float:
-    """How much longer the robot may search under way [s]."""
+    """How much longer the robot may search before it brakes for that [s]; inf if it does already.
+
+    In the step in which it begins to brake it doesn't search: it would go on meanwhile.
+    """
     longest, pending = context.task.mission.robot.max_replan_s, context.schedule.pending
-    if longest is None:
+    if longest is None or (pending is not None and pending.brakes):
         return float("inf")
     return longest if pending is None else longest - (context.progress.time - pending.since)

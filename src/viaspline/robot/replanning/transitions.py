@@ -16,7 +16,12 @@ from viaspline.kernels.arrays import Floats
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.reschedule import braking_at_once, rescheduled
 from viaspline.robot.navigation.schedule import Schedule
-from viaspline.robot.replanning.deadline import gone_on, last_place, must_brake
+from viaspline.robot.replanning.deadline import (
+    gone_on,
+    last_place,
+    must_brake,
+    stopping_place,
+)
 from viaspline.robot.replanning.path_candidate import PathCandidate
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult
@@ -77,7 +82,7 @@ def keep_searching(context: ReplanContext, result: ReplanResult) -> Decision | N
     """
     assert result.begin_with is not None
     before, schedule = context.schedule, context.schedule
-    held_at = context.stop if must_brake(context) else last_place(context)
+    held_at = stopping_place(context) if must_brake(context) else last_place(context)
     pending = gone_on(context, result.begin_with, held_at, result.doubt)
     if pending is None:
         return None
