@@ -14,8 +14,9 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.trajectory.cells import Cells
 from viaspline.trajectory.coupled import Profile, Stage
-from viaspline.trajectory.jerk import Section, fine_path, joined, reachable, smooth_law
+from viaspline.trajectory.jerk import fine_path, joined, reachable, smooth_law
 from viaspline.trajectory.jerk_limited import JerkLimitedMotion, smoothest, smoothest_lap
+from viaspline.trajectory.jerk_section import Section
 from viaspline.trajectory.limited_path import LimitedPath
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.motion_ends import Rest, Seam
