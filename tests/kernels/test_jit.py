@@ -66,6 +66,18 @@ def test_the_callers_own_cache_folder_stays_as_it_was() -> None:
 
 
 @compiled
+@pytest.mark.parametrize("name", ["kernel", "inner", "uncounted", "inlined", "fused"])
+def test_nothing_is_taken_over_from_the_caller_that_compiles_a_kernel_first(name: str) -> None:
+    compiled = getattr(jit, name)(_twice)
+    taken_over = {"error_model", "forceinline", "_nrt"}
+    assert taken_over <= set(compiled.targetoptions)
+
+
+def _twice(x: float) -> float:
+    return 2.0 * x
+
+
+@compiled
 def test_what_is_compiled_of_ours_is_told_and_nothing_else(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

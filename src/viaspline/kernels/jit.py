@@ -28,10 +28,15 @@ def _take_literals_as_values(dispatcher: Any) -> None:
 
 
 def _compile(function: _Function, **options: Any) -> _Function:
+    """Compile a function with options that are its own.
+
+    Those that aren't said numba takes over from the caller for which it is first compiled, and
+    keeps on disk for all: of the same sources one order of compiling made certificates that took
+    twice as long as those of another.
+    """
     njit: Any = numba.njit
-    compiled: _Function = njit(error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options)(
-        function
-    )
+    settled = {"error_model": "numpy", "forceinline": False, "_nrt": True} | options
+    compiled: _Function = njit(nogil=True, no_cfunc_wrapper=True, **settled)(function)
     if hasattr(compiled, "get_call_template"):  # else the JIT is off
         dispatcher: Any = compiled
         cache: Any = KernelCache
@@ -66,7 +71,8 @@ def uncounted(function: _Function) -> _Function:
 def inlined(function: _Function) -> _Function:
     """Compile a function right into the kernels that call it: for the inside of hot loops.
 
-    It must neither make nor return arrays. numba counts references at every call; not here.
+    It must neither make nor return arrays. numba counts references at every call; not here. So are
+    those that are given a whole packed world: a hundred words at every call take longer than that.
     """
     return _compile(function, no_cpython_wrapper=True, forceinline=True, _nrt=False)
 

@@ -16,7 +16,7 @@ from viaspline.kernels.world.clusters import group_labels
 from viaspline.kernels.world.distance import distances, obstacle_distances
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.rings import EDGES_PER_BLOCK, pack_rings
-from viaspline.kernels.world.segment import mark_near_segment, nearest_to_segment
+from viaspline.kernels.world.segment import mark_near_segment, segment_distance
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import join, pack
 
@@ -37,7 +37,7 @@ def world(*obstacles: Obstacle, bounds: Any = None, fences: Any = ()) -> PackedW
 
 
 def to_segment(packed: PackedWorld, *ends: float, limit: float = np.inf) -> tuple[float, int]:
-    distance, index = nearest_to_segment(packed, *map(float, ends), limit)
+    distance, index = segment_distance(packed, *map(float, ends), limit)
     return float(distance), int(index)
 
 

@@ -17,7 +17,7 @@ from viaspline.kernels.world.clusters import group_labels
 from viaspline.kernels.world.distance import distances, obstacle_distances
 from viaspline.kernels.world.grid_rows import NO_COLUMN, row_tables
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.segment import mark_near_segment, nearest_to_segment
+from viaspline.kernels.world.segment import mark_near_segment, segment_distance
 from viaspline.maps.grid import Grid
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import pack
@@ -71,7 +71,7 @@ def to_points(grid: Grid, points: Any) -> Floats:
 
 def to_segment(packed: PackedWorld, a: Any, b: Any, limit: float = np.inf) -> float:
     (ax, ay), (bx, by) = a, b
-    return float(nearest_to_segment(packed, float(ax), float(ay), float(bx), float(by), limit)[0])
+    return float(segment_distance(packed, float(ax), float(ay), float(bx), float(by), limit)[0])
 
 
 # Tables

@@ -17,7 +17,7 @@ from viaspline.kernels.world.clusters import group_labels
 from viaspline.kernels.world.distance import obstacle_distances
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.rasterize import rasterized
-from viaspline.kernels.world.segment import nearest_to_segment
+from viaspline.kernels.world.segment import segment_distance
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.world.pack import pack
 
@@ -67,10 +67,10 @@ def test_the_distance_of_segments_is_that_of_the_core_less_the_radius(seed: int)
     ring = random_ring(rng)
     world = packed(ring)
     for a, b in rng.uniform(-14, 14, (20, 2, 2)):
-        found, _ = nearest_to_segment(world, *a, *b, np.inf)
+        found, _ = segment_distance(world, *a, *b, np.inf)
         expected = shapely.distance(ring.core(), shapely.LineString([a, b])) - ring.radius
         np.testing.assert_allclose(found, expected, atol=1e-9)
-        near, index = nearest_to_segment(world, *a, *b, 1.0)
+        near, index = segment_distance(world, *a, *b, 1.0)
         assert near == min(found, 1.0)
         assert index == (0 if found < 1.0 else -1)
 

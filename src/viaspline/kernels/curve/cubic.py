@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, inner, kernel
 
 FINE, NOT_FINITE, APART = range(3)
 MAX_COORDINATE_M = 1e100  # coordinates beyond this would overflow where they are squared [m]
@@ -157,7 +157,7 @@ def _evaluate_runs(rows: Floats, u: Floats, closed: bool, out: Floats) -> int:
     return -1
 
 
-@kernel
+@inlined
 def first_derivative(spans: Floats, k: int, axis: int, w: float) -> float:
     """One coordinate of P'(w) on span k, in Bernstein form: exact zeros stay exact."""
     v = 1.0 - w
@@ -167,7 +167,7 @@ def first_derivative(spans: Floats, k: int, axis: int, w: float) -> float:
     return float(3.0 * (v * v * first + 2.0 * v * w * second + w * w * third))
 
 
-@kernel
+@inlined
 def second_derivative(spans: Floats, k: int, axis: int, w: float) -> float:
     """One coordinate of P''(w) on span k."""
     first = spans[k, 1, axis] - spans[k, 0, axis]
@@ -176,7 +176,7 @@ def second_derivative(spans: Floats, k: int, axis: int, w: float) -> float:
     return float(6.0 * ((1.0 - w) * (second - first) + w * (third - second)))
 
 
-@kernel
+@inlined
 def third_derivative(spans: Floats, k: int, axis: int) -> float:
     """One coordinate of P''' on span k."""
     first = spans[k, 1, axis] - spans[k, 0, axis]
@@ -185,7 +185,7 @@ def third_derivative(spans: Floats, k: int, axis: int) -> float:
     return float(6.0 * ((third - second) - (second - first)))
 
 
-@inner
+@inlined
 def speed_at(spans: Floats, k: int, w: float) -> float:
     """|P'(w)| on span k [m per unit of the parameter]."""
     squared = 0.0
@@ -194,7 +194,7 @@ def speed_at(spans: Floats, k: int, w: float) -> float:
     return math.sqrt(squared)
 
 
-@kernel
+@inlined
 def speed_bound(spans: Floats, k: int) -> float:
     """Upper bound of |P'(w)| on span k: the longest control vector of the derivative [m]."""
     largest = 0.0

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, kernel
 
 CURVATURE_SAMPLES = 32  # of curvature on a span
 LENGTH_RULES = 4  # Gauss-Legendre rules of five points on a span
@@ -68,7 +68,7 @@ def bending(spans: Floats) -> tuple[float, float]:
     return total, sharpest
 
 
-@inner
+@inlined
 def _curvature(spans: Floats, span: int, w: float) -> float:
     ax = spans[span, 1, 0] - spans[span, 0, 0]
     ay = spans[span, 1, 1] - spans[span, 0, 1]

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inner, kernel, uncounted
 from viaspline.kernels.world.corner_fans import (
     CORNER_COLUMNS,
     X,
@@ -29,7 +29,7 @@ MAX_CORNERS = 8_000
 """Beyond so many the search, which looks at every pair, is given up."""
 
 
-@inner
+@uncounted
 def _crosses_barrier(barriers: Floats, ax: float, ay: float, bx: float, by: float) -> bool:
     for k in range(barriers.shape[0]):
         cx = barriers[k, 0]
@@ -47,7 +47,7 @@ def _crosses_barrier(barriers: Floats, ax: float, ay: float, bx: float, by: floa
     return False
 
 
-@inner
+@uncounted
 def _bring_forward(members: Floats, k: int) -> None:
     """Move a member half way to the front: what blocked one segment blocks others near it."""
     forward = k // 2
@@ -55,7 +55,7 @@ def _bring_forward(members: Floats, k: int) -> None:
         members[k, column], members[forward, column] = members[forward, column], members[k, column]
 
 
-@inner
+@uncounted
 def is_clear(
     world: PackedWorld,
     members: Floats,

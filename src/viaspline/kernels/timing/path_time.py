@@ -14,12 +14,12 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.curve.cubic import first_derivative, second_derivative
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, inner, kernel
 
 PLACES_PER_SPAN = 6
 
 
-@inner
+@inlined
 def _place(spans: Floats, k: int, w: float, velocity: Floats, bend: Floats) -> tuple[float, float]:
     """Speed of the parametrisation and curvature at a parameter of a span."""
     square = 0.0

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inner, kernel, uncounted
 
 MAX_ROUNDS = 30
 CENTERED = 0.15  # what the product of slack and price is brought down to in a round
@@ -27,7 +27,7 @@ def _wrapped(angle: float) -> float:
     return angle - 2.0 * math.pi * math.floor((angle + math.pi) / (2.0 * math.pi))
 
 
-@inner
+@uncounted
 def _bands(
     places: Floats, normals: Floats, closed: bool, tension: float, bands: Floats, slopes: Floats,
     seam: Floats,
@@ -86,7 +86,7 @@ def _bands(
     return bending
 
 
-@inner
+@uncounted
 def _seam(
     places: Floats, normals: Floats, heading: float, step: float, per: float, slopes: Floats,
     seam: Floats,
@@ -104,7 +104,7 @@ def _seam(
     return turn * turn / share
 
 
-@inner
+@uncounted
 def _solve(bands: Floats, more: Floats, fixed: Flags, right: Floats, work: Floats) -> None:
     """Solve a symmetric system of five diagonals, with more on the main one; in place of right."""
     count = right.shape[0]
@@ -135,7 +135,7 @@ def _solve(bands: Floats, more: Floats, fixed: Flags, right: Floats, work: Float
             right[j] -= work[j, 2] * right[j + 2]
 
 
-@inner
+@uncounted
 def _solve_round(
     bands: Floats, more: Floats, fixed: Flags, seam: Floats, right: Floats, across: Floats,
     work: Floats,
@@ -154,7 +154,7 @@ def _solve_round(
         right[j] -= far * across[j]
 
 
-@inner
+@uncounted
 def _slopes_at(
     bands: Floats, slopes: Floats, seam: Floats, moved: Floats, step: Floats
 ) -> None:  # fmt: skip
@@ -175,7 +175,7 @@ def _slopes_at(
     step[count - 2] -= seam[1] * turned
 
 
-@inner
+@uncounted
 def _is_free(
     bands: Floats, slopes: Floats, fixed: Flags, seam: Floats, lower: Floats, upper: Floats,
     moved: Floats, more: Floats, across: Floats, work: Floats,
@@ -192,7 +192,7 @@ def _is_free(
     return is_free
 
 
-@inner
+@uncounted
 def _most_turned(places: Floats, moved: Floats) -> float:
     """By how much a step is turned at most [rad]."""
     turned = 0.0

@@ -17,7 +17,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cardinal_tangents import three_cubics
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inner, uncounted
 
 MIN_TURN_RAD = 1e-9  # less than this is no turn [rad]
 FULL_RAMP_SHARE = 0.95  # of the length that a turn without an arc needs for its ramps
@@ -96,12 +96,12 @@ def shape_of(theta: float, rho: float, ramp: float) -> tuple[float, float, float
     return radius, y - radius * (1.0 - math.cos(heading)), x - radius * math.sin(heading)
 
 
-@inner
+@uncounted
 def _node(x: float, y: float, heading: float, curvature: float, node: Floats) -> None:
     node[0], node[1], node[2], node[3] = x, y, heading, curvature
 
 
-@inner
+@uncounted
 def turn_nodes(
     apex_x: float,
     apex_y: float,

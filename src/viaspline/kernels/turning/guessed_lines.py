@@ -10,13 +10,13 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import uncounted
 from viaspline.kernels.turning.settled_lines import KEPT, SIDE, X, Y, wrapped
 
 GUESSED_ABOUT = 2  # lines before and after one at which it failed, that are guessed again with it
 
 
-@inner
+@uncounted
 def guess_lines(bends: Floats, closed: bool, lines: Floats, turns: Floats, circles: Floats) -> None:
     """Begin with the polyline through the bends' middles, and circles of what is kept."""
     count, last = bends.shape[0], lines.shape[0]
@@ -26,7 +26,7 @@ def guess_lines(bends: Floats, closed: bool, lines: Floats, turns: Floats, circl
         _guess_turn(bends, closed, k, lines, turns, circles)
 
 
-@inner
+@uncounted
 def guess_again(
     bends: Floats, closed: bool, tight: Flags, lines: Floats, turns: Floats, circles: Floats,
     laid: Floats,
@@ -58,14 +58,14 @@ def guess_again(
                 laid[i % count] = np.inf
 
 
-@inner
+@uncounted
 def _middles_line(bends: Floats, k: int) -> float:
     """Heading from the middle of a bend to that of the next."""
     after = (k + 1) % bends.shape[0]
     return math.atan2(bends[after, Y] - bends[k, Y], bends[after, X] - bends[k, X])
 
 
-@inner
+@uncounted
 def _guess_turn(
     bends: Floats, closed: bool, k: int, lines: Floats, turns: Floats, circles: Floats
 ) -> None:

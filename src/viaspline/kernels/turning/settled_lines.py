@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inner, uncounted
 from viaspline.kernels.turning.clothoid import MIN_TURN_RAD, shape_of
 
 # Columns of a bend: its middle, the radius that is kept from it, the side to which it turns (1
@@ -43,7 +43,7 @@ def wrapped(angle: float, about: float) -> float:
     return angle - 2.0 * math.pi * math.floor((angle - about + math.pi) / (2.0 * math.pi))
 
 
-@inner
+@uncounted
 def _line(circles: Floats, i: int, j: int) -> float:
     """Heading of the line that touches circle i and then circle j; NaN where there is none."""
     dx = circles[j, 0] - circles[i, 0]
@@ -55,7 +55,7 @@ def _line(circles: Floats, i: int, j: int) -> float:
     return math.atan2(dy, dx) - math.asin(offset / gap)
 
 
-@inner
+@uncounted
 def _turn_at(bend: Floats, before: float, after: float, last: float) -> float:
     """By how much the path turns at a bend, left positive; ``last`` is what it was."""
     if math.isnan(bend[HEADING]):
@@ -69,13 +69,13 @@ def _turn_at(bend: Floats, before: float, after: float, last: float) -> float:
     return bend[SIDE] * max(turned, 0.0)
 
 
-@inner
+@uncounted
 def turn_radius(bend: Floats) -> float:
     """The radius of its turn [m]: no less than what is kept from its middle."""
     return max(bend[RADIUS], bend[KEPT])
 
 
-@inner
+@uncounted
 def _place(bend: Floats, kind: int, turn: float, heading: float, ramp: float, circle: Floats,
            apex: Floats) -> None:  # fmt: skip
     """Where the turn of a bend lies: the circle that its lines touch, and its apex.
@@ -122,7 +122,7 @@ def _place(bend: Floats, kind: int, turn: float, heading: float, ramp: float, ci
         circle[0], circle[1], circle[2] = center_x, center_y, side * touch
 
 
-@inner
+@uncounted
 def needless_bend(bends: Floats, closed: bool, turns: Floats, settled: float) -> int:
     """The bend that is turned at most to the wrong side: the others make it needless; else -1.
 
@@ -141,7 +141,7 @@ def needless_bend(bends: Floats, closed: bool, turns: Floats, settled: float) ->
     return found
 
 
-@inner
+@uncounted
 def _overshoot(steps: Floats, before: Floats) -> float:
     """How much of the last change is taken back, so that what is left to go is least.
 
@@ -156,7 +156,7 @@ def _overshoot(steps: Floats, before: Floats) -> float:
     return max(min(both / square, 1.0), -MAX_OVERSHOOT) if square > 0.0 else 0.0
 
 
-@inner
+@uncounted
 def _lay(
     bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats,
     circles: Floats, apexes: Floats, laid: Floats, fresh: Flags, unmoved: float,

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inner, kernel, uncounted
 
 SAMPLES = 4  # of a span
 
@@ -22,7 +22,7 @@ def _turn(heading: float, other: float) -> float:
     return abs(off - 2.0 * math.pi * math.floor(off / (2.0 * math.pi) + 0.5))
 
 
-@inner
+@uncounted
 def _sampled(spans: Floats, points: Floats) -> None:
     for i in range(spans.shape[0]):
         for k in range(SAMPLES):
@@ -38,7 +38,7 @@ def _sampled(spans: Floats, points: Floats) -> None:
         points[-1, axis] = spans[-1, 3, axis]
 
 
-@inner
+@uncounted
 def _wanted(points: Floats, step: float, turn: float, wanted: Floats) -> None:
     """How many places there should be up to each point."""
     heading = 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, kernel
 from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 
@@ -19,7 +19,7 @@ PROBE_M = 1e-5
 LEAST_SLOPE = 0.05  # of a distance, across the path, of what stands beside it
 
 
-@inner
+@inlined
 def _on_strip(spans: Floats, at: float) -> tuple[float, float]:
     """A place on a curve [m]; before its start and after its end that."""
     k = min(max(math.floor(at), 0), spans.shape[0] - 1)
@@ -31,7 +31,7 @@ def _on_strip(spans: Floats, at: float) -> tuple[float, float]:
     return x, y
 
 
-@inner
+@inlined
 def _gap(
     world: PackedWorld, spans: Floats, off: tuple[float, float], at: float, limit: float
 ) -> float:  # fmt: skip
@@ -41,7 +41,7 @@ def _gap(
     return gap
 
 
-@inner
+@inlined
 def _least_about(
     world: PackedWorld, spans: Floats, off: tuple[float, float], j: int, gap: float,
     steps: tuple[float, float], near: float,
@@ -82,7 +82,7 @@ def _least_about(
     return least, at
 
 
-@inner
+@inlined
 def _is_open(world: PackedWorld, places: Floats, beside: Floats, kept: Floats) -> bool:
     """Whether nothing stands so near to any place of a strip that it would be looked for.
 

@@ -12,14 +12,14 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inner, kernel, uncounted
 
 STRAIGHT = 1e-11  # of what an end bends on its first step: it doesn't [rad]
 MAX_ROUNDS = 8
 PROBE = 1e-3  # of a step, by which a place is moved to see what that changes
 
 
-@inner
+@uncounted
 def _tangents(places: Floats, steps: Floats, ends: Floats, tangents: Floats, above: Floats) -> None:
     """The spline's derivatives by its parameter at places; where none is given at an end, free."""
     count = places.shape[0]
@@ -56,14 +56,14 @@ def _tangents(places: Floats, steps: Floats, ends: Floats, tangents: Floats, abo
             tangents[j, axis] -= above[j] * tangents[j + 1, axis]
 
 
-@inner
+@uncounted
 def _steps(places: Floats, steps: Floats) -> None:
     for j in range(steps.size):
         dx, dy = places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
         steps[j] = math.hypot(dx, dy)
 
 
-@inner
+@uncounted
 def _bent_at(places: Floats, steps: Floats, tangents: Floats, end: int, axis: int) -> float:
     """The second derivative at an end, 0 the first and 1 the last, along an axis [1/m]."""
     if end == 0:

@@ -13,7 +13,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.footprint_pose import outer_radius
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import kernel, uncounted
 from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 
@@ -38,7 +38,7 @@ class StripBody(NamedTuple):
     outline: Floats
 
 
-@inner
+@uncounted
 def _flanks(outline: Floats) -> tuple[float, float]:
     """How far a body reaches to the left and to the right of its reference point [m]."""
     left, right = 0.0, 0.0
@@ -52,7 +52,7 @@ def _flanks(outline: Floats) -> tuple[float, float]:
     return left, right
 
 
-@inner
+@uncounted
 def _axis(spans: Floats, k: int, w: float, axis: int) -> tuple[float, float]:
     """A coordinate on a span [m], and a third of its derivative there."""
     a, b, c, d = spans[k, 0, axis], spans[k, 1, axis], spans[k, 2, axis], spans[k, 3, axis]
@@ -61,7 +61,7 @@ def _axis(spans: Floats, k: int, w: float, axis: int) -> tuple[float, float]:
     return at, v * v * (b - a) + 2.0 * v * w * (c - b) + w * w * (d - c)
 
 
-@inner
+@uncounted
 def _pose(spans: Floats, along: Floats, at: float, first: int) -> tuple[float, float, float, float]:
     """Where a curve is, and its direction, so far along the chords of its spans [m].
 
@@ -83,7 +83,7 @@ def _pose(spans: Floats, along: Floats, at: float, first: int) -> tuple[float, f
     return x, y, tx / long, ty / long
 
 
-@inner
+@uncounted
 def _reached(
     outline: Floats, closed: bool, places: Floats, normals: Floats, spans: Floats, along: Floats,
     j: int,

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inner, kernel, uncounted
 from viaspline.kernels.turning.guessed_lines import guess_again, guess_lines
 from viaspline.kernels.turning.settled_lines import (
     FINE,
@@ -30,7 +30,7 @@ MIN_RAMP_RADII = 0.08  # of the radius
 RAMP_SHRINK = 0.6
 
 
-@inner
+@uncounted
 def _overlapping(lines: Floats, ends: Floats, tight: Flags) -> bool:
     """Tell the lines on which turns overlap, and whether there are any."""
     found = False

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inner, kernel, uncounted
 from viaspline.kernels.turning.clothoid import (
     MAX_SPAN_TURN_RAD,
     MIN_TURN_RAD,
@@ -26,7 +26,7 @@ MIN_STRAIGHT_M = 1e-3  # straight piece that is laid by itself [m]
 MIN_TO_POINT_M = 1e-6  # the same, from a turn to a point that stays where it is [m]
 
 
-@inner
+@uncounted
 def _heading_at(bends: Floats, closed: bool, lines: Floats, turns: Floats, k: int) -> float:
     """Heading at the apex of a bend [rad]."""
     count = bends.shape[0]
@@ -35,7 +35,7 @@ def _heading_at(bends: Floats, closed: bool, lines: Floats, turns: Floats, k: in
     return lines[k] - 0.5 * turns[k]
 
 
-@inner
+@uncounted
 def _nodes_of(
     bends: Floats, closed: bool, lines: Floats, turns: Floats, apexes: Floats, ramps: Floats,
     k: int, nodes: Floats,
@@ -63,7 +63,7 @@ def fill_ends(
             ends[k, i], ends[k, 2 + i] = nodes[0, i], nodes[size - 1, i]
 
 
-@inner
+@uncounted
 def _straight(nodes: Floats, a: int, b: int, polygons: Floats) -> None:
     for axis in range(2):
         start, end = nodes[a, axis], nodes[b, axis]
@@ -135,7 +135,7 @@ def turn_sequence_spans(
     return polygons[:size].copy(), begins
 
 
-@inner
+@uncounted
 def _lengths(theta: float, rho: float, ramp: float, number: int, lengths: Floats) -> None:
     """Lengths between the nodes of a turn [m]."""
     radius, ramp = arc_and_ramp(theta, rho, ramp)

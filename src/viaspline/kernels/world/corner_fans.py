@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import uncounted
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.ring_distance import is_disc, radius_of
 
@@ -24,7 +24,7 @@ X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)
 CORNER_COLUMNS = 8
 
 
-@inner
+@uncounted
 def _fan(
     corners: Floats,
     count: int,
@@ -57,7 +57,7 @@ def _fan(
     return count
 
 
-@inner
+@uncounted
 def _ring_corners(
     edges: Floats, first: int, last: int, rho: float, step: float, corners: Floats, count: int
 ) -> int:
@@ -82,7 +82,7 @@ def _ring_corners(
     return count
 
 
-@inner
+@uncounted
 def ring_fans(
     world: PackedWorld, r: int, rho: float, step: float, corners: Floats, count: int
 ) -> int:
@@ -96,7 +96,7 @@ def ring_fans(
     return _ring_corners(world.edges, first, last, radius, step, corners, count)
 
 
-@inner
+@uncounted
 def fence_corners(world: PackedWorld, rho: float, step: float, corners: Floats, count: int) -> int:
     """Append the corners of fences, where they aren't convex; see ``shape.obstacle_corners``."""
     for f in range(world.fence_edges.size - 1):
@@ -106,7 +106,7 @@ def fence_corners(world: PackedWorld, rho: float, step: float, corners: Floats, 
     return count
 
 
-@inner
+@uncounted
 def supports(corners: Floats, k: int, dx: float, dy: float) -> bool:
     """Whether a line through corner k along (dx, dy) leaves its obstacle on one side.
 

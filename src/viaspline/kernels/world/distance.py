@@ -13,14 +13,14 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, kernel, uncounted
 from viaspline.kernels.world.packed import PackedFences, PackedWorld
 from viaspline.kernels.world.plane import box_signed, squared_point_segment
 from viaspline.kernels.world.ring_distance import crosses_eastwards
 from viaspline.kernels.world.shape import obstacle_signed
 
 
-@inner
+@uncounted
 def fence_signed(world: PackedFences, f: int, x: float, y: float) -> float:
     """Signed distance from (x, y) to the outside of fence f [m]; positive inside the fence."""
     inside = False
@@ -33,7 +33,7 @@ def fence_signed(world: PackedFences, f: int, x: float, y: float) -> float:
     return math.sqrt(squared) if inside else -math.sqrt(squared)
 
 
-@inner
+@inlined
 def inner_signed(world: PackedFences, x: float, y: float, limit: float) -> tuple[float, int]:
     """Distance from (x, y) to what the robot stays inside of [m], and which (see ``nearest``)."""
     best = limit
@@ -51,7 +51,7 @@ def inner_signed(world: PackedFences, x: float, y: float, limit: float) -> tuple
     return best, index
 
 
-@inner
+@inlined
 def _descend(world: PackedWorld, x: float, y: float) -> int:
     """The obstacle that is found by going to the nearest box on every level of the tree."""
     node = 0
@@ -70,7 +70,7 @@ def _descend(world: PackedWorld, x: float, y: float) -> int:
     return world.leaf[node]
 
 
-@inner
+@inlined
 def nearest(world: PackedWorld, x: float, y: float, limit: float) -> tuple[float, int]:
     """Signed distance from (x, y) to the world, and what is nearest.
 

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Columns, Flags, Floats
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, kernel, uncounted
 from viaspline.kernels.world.packed import PackedWorld
 
 NO_COLUMN = 32767  # columns to where there is nothing: more than a grid may have
@@ -54,13 +54,13 @@ def row_tables(blocked: Flags) -> tuple[Columns, Columns]:
     return to_right, to_left
 
 
-@inner
+@inlined
 def entry(table: Columns, place: int) -> int:
     """An entry in 64 bits; ``int`` by itself leaves it in 16, where -32768 has no opposite."""
     return int(np.int64(table[place]))
 
 
-@inner
+@inlined
 def to_cells(world: PackedWorld, g: int, x: float, y: float) -> tuple[float, float]:
     """From the world [m] to grid g's columns and rows."""
     frame = world.grid_frames[g]
@@ -71,7 +71,7 @@ def to_cells(world: PackedWorld, g: int, x: float, y: float) -> tuple[float, flo
     return u, v
 
 
-@inner
+@uncounted
 def to_world(world: PackedWorld, g: int, u: float, v: float) -> tuple[float, float]:
     """From grid g's columns and rows to the world [m]."""
     frame = world.grid_frames[g]
@@ -80,7 +80,7 @@ def to_world(world: PackedWorld, g: int, u: float, v: float) -> tuple[float, flo
     return x, y
 
 
-@inner
+@uncounted
 def is_blocked(world: PackedWorld, g: int, row: int, column: int) -> bool:
     """Whether a cell of grid g is blocked; cells outside of the grid are not."""
     width = world.grid_shapes[g, 0]
@@ -89,7 +89,7 @@ def is_blocked(world: PackedWorld, g: int, row: int, column: int) -> bool:
     return world.to_right[world.grid_shapes[g, 2] + row * width + column] < 0
 
 
-@inner
+@inlined
 def _aside(
     to_right: Columns, to_left: Columns, place: int, column: int, u: float, sign: int
 ) -> float:
@@ -106,7 +106,7 @@ def _aside(
     return aside
 
 
-@inner
+@uncounted
 def nearest_cell(
     to_right: Columns,
     to_left: Columns,
@@ -154,7 +154,7 @@ def nearest_cell(
         below -= 1
 
 
-@inner
+@inlined
 def grid_signed(world: PackedWorld, g: int, x: float, y: float, limit: float) -> float:
     """Signed distance from (x, y) to the blocked cells of grid g [m]; negative inside."""
     u, v = to_cells(world, g, x, y)
@@ -176,7 +176,7 @@ def grid_signed(world: PackedWorld, g: int, x: float, y: float, limit: float) ->
     return min(limit, side * distance) if distance < within else limit
 
 
-@inner
+@uncounted
 def _write_corner(
     frame: Floats, u: int, v: int, east: int, north: int, out: Floats, count: int
 ) -> int:
@@ -190,7 +190,7 @@ def _write_corner(
     return count + 1
 
 
-@inner
+@uncounted
 def grid_corners_near(
     world: PackedWorld, g: int, x: float, y: float, reach: float, out: Floats, count: int
 ) -> int:

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Columns
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inlined, uncounted
 from viaspline.kernels.world.grid_rows import entry, nearest_cell, to_cells
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import squared_point_segment
@@ -21,7 +21,7 @@ from viaspline.kernels.world.plane import squared_point_segment
 NARROW_CELLS = 4.0  # cells; within so little no time is lost by looking everywhere
 
 
-@inner
+@uncounted
 def squared_segment_box(
     ax: float, ay: float, bx: float, by: float, left: float, low: float, right: float, high: float
 ) -> float:
@@ -47,7 +47,7 @@ def squared_segment_box(
     return min(corner, min(a_x * a_x + a_y * a_y, b_x * b_x + b_y * b_y))
 
 
-@inner
+@uncounted
 def _row_gap(
     to_right: Columns,
     first: int,
@@ -100,7 +100,7 @@ def _row_gap(
     return best
 
 
-@inner
+@inlined
 def grid_segment(
     world: PackedWorld, g: int, ax: float, ay: float, bx: float, by: float, limit: float
 ) -> float:

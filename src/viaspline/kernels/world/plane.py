@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inlined, uncounted
 
 
-@inner
+@uncounted
 def squared_point_segment(x: float, y: float, ax: float, ay: float, bx: float, by: float) -> float:
     """Squared distance from (x, y) to the segment a-b [m²]."""
     dx = bx - ax
@@ -26,18 +26,18 @@ def squared_point_segment(x: float, y: float, ax: float, ay: float, bx: float, b
     return across * across + along * along
 
 
-@inner
+@uncounted
 def point_segment(x: float, y: float, ax: float, ay: float, bx: float, by: float) -> float:
     """Distance from (x, y) to the segment a-b [m]."""
     return math.sqrt(squared_point_segment(x, y, ax, ay, bx, by))
 
 
-@inner
+@uncounted
 def _orientation(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> float:
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-@inner
+@uncounted
 def segment_segment(
     ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
 ) -> float:
@@ -52,7 +52,7 @@ def segment_segment(
     )
 
 
-@inner
+@inlined
 def box_signed(boxes: Floats, b: int, x: float, y: float) -> float:
     """Signed distance from (x, y) to box b: a lower bound for all that lies in the box."""
     left = max(boxes[b, 0] - x, x - boxes[b, 2])
@@ -62,7 +62,7 @@ def box_signed(boxes: Floats, b: int, x: float, y: float) -> float:
     return math.sqrt(left * left + down * down)
 
 
-@inner
+@inlined
 def box_gap(boxes: Floats, b: int, x0: float, y0: float, x1: float, y1: float) -> float:
     """Distance between box b and the box (x0, y0)-(x1, y1); 0 where they overlap."""
     gap_x = max(max(boxes[b, 0] - x1, x0 - boxes[b, 2]), 0.0)
@@ -70,7 +70,7 @@ def box_gap(boxes: Floats, b: int, x0: float, y0: float, x1: float, y1: float) -
     return math.sqrt(gap_x * gap_x + gap_y * gap_y)
 
 
-@inner
+@uncounted
 def is_within(body: Floats, x: float, y: float) -> bool:
     """Whether (x, y) in the robot's frame lies inside the outline (k, 2)."""
     inside = False
@@ -86,7 +86,7 @@ def is_within(body: Floats, x: float, y: float) -> bool:
     return inside
 
 
-@inner
+@uncounted
 def covers(body: Floats, x: float, y: float, c: float, s: float, px: float, py: float) -> bool:
     """Whether the point (px, py) of the world lies inside the body in a pose."""
     dx = px - x

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Bytes, Floats
-from viaspline.kernels.jit import inlined, inner
+from viaspline.kernels.jit import inlined, uncounted
 from viaspline.kernels.world.packed import PackedRings, PackedWorld
 from viaspline.kernels.world.plane import (
     box_gap,
@@ -36,7 +36,7 @@ def radius_of(world: PackedRings, r: int) -> float:
     return world.heads[r, 2]
 
 
-@inner
+@inlined
 def crosses_eastwards(edges: Floats, e: int, x: float, y: float) -> bool:
     """Whether the ray from (x, y) to the east crosses edge e."""
     y0 = edges[e, 1]
@@ -46,7 +46,7 @@ def crosses_eastwards(edges: Floats, e: int, x: float, y: float) -> bool:
     return x < edges[e, 0] + (y - y0) / (y1 - y0) * (edges[e, 2] - edges[e, 0])
 
 
-@inner
+@inlined
 def _core_signed(world: PackedRings, r: int, x: float, y: float) -> float:
     """Signed distance from (x, y) to the core of ring r [m]; negative inside."""
     boxes = world.block_boxes
@@ -109,7 +109,7 @@ def ring_segment(
     return best - radius if best < reach else limit
 
 
-@inner
+@uncounted
 def rings_gap(world: PackedWorld, r: int, q: int, limit: float) -> float:
     """Distance between the rings r and q [m]; not above 0 where they overlap."""
     best = limit
@@ -124,7 +124,7 @@ def rings_gap(world: PackedWorld, r: int, q: int, limit: float) -> float:
     return best
 
 
-@inner
+@uncounted
 def mark_disc(
     world: PackedWorld, r: int, x: float, y: float, side: float, reach: float, cells: Bytes
 ) -> None:

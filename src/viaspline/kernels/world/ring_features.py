@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import uncounted
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.ring_distance import is_disc, radius_of
 
@@ -19,7 +19,7 @@ from viaspline.kernels.world.ring_distance import is_disc, radius_of
 FEATURE_X, FEATURE_Y, FEATURE_RADIUS, OUT_X, OUT_Y = range(5)
 
 
-@inner
+@uncounted
 def _write_disc(out: Floats, count: int, x: float, y: float, radius: float) -> None:
     out[count, FEATURE_X] = x
     out[count, FEATURE_Y] = y
@@ -28,7 +28,7 @@ def _write_disc(out: Floats, count: int, x: float, y: float, radius: float) -> N
     out[count, OUT_Y] = 0.0
 
 
-@inner
+@uncounted
 def edge_features(
     edges: Floats, first: int, last: int, radius: float, x: float, y: float, reach: float,
     out: Floats, count: int,
@@ -91,7 +91,7 @@ def edge_features(
     return count
 
 
-@inner
+@uncounted
 def ring_features(
     world: PackedWorld, r: int, x: float, y: float, reach: float, out: Floats, count: int
 ) -> int:

@@ -11,14 +11,14 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Flags
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, kernel, uncounted
 from viaspline.kernels.world.distance import fence_signed
 from viaspline.kernels.world.packed import PackedFences, PackedWorld
 from viaspline.kernels.world.plane import box_gap, box_signed, segment_segment
 from viaspline.kernels.world.shape import obstacle_segment
 
 
-@inner
+@uncounted
 def fence_segment(world: PackedFences, f: int, ax: float, ay: float, bx: float, by: float) -> float:
     """Distance between the segment a-b and the outside of fence f [m]; 0 where it leaves it."""
     if fence_signed(world, f, ax, ay) <= 0.0:
@@ -30,7 +30,7 @@ def fence_segment(world: PackedFences, f: int, ax: float, ay: float, bx: float, 
     return best
 
 
-@inner
+@inlined
 def inner_segment(
     world: PackedFences, ax: float, ay: float, bx: float, by: float, limit: float
 ) -> tuple[float, int]:
@@ -50,7 +50,7 @@ def inner_segment(
     return best, index
 
 
-@kernel
+@inlined
 def nearest_to_segment(
     world: PackedWorld, ax: float, ay: float, bx: float, by: float, limit: float
 ) -> tuple[float, int]:
@@ -73,6 +73,14 @@ def nearest_to_segment(
                 index = obstacle
         node += 1
     return best, index
+
+
+@kernel
+def segment_distance(
+    world: PackedWorld, ax: float, ay: float, bx: float, by: float, limit: float
+) -> tuple[float, int]:
+    """What ``nearest_to_segment`` tells kernels, asked from Python."""
+    return nearest_to_segment(world, ax, ay, bx, by, limit)
 
 
 @kernel

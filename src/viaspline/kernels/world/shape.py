@@ -9,7 +9,7 @@ them in a file of its own and stands in each of these functions.
 from __future__ import annotations
 
 from viaspline.kernels.arrays import Bytes, Floats
-from viaspline.kernels.jit import inlined, inner
+from viaspline.kernels.jit import inlined, uncounted
 from viaspline.kernels.world.corner_fans import ring_fans
 from viaspline.kernels.world.grid_cover import grid_enclosed, grid_features
 from viaspline.kernels.world.grid_rays import grid_range
@@ -34,7 +34,7 @@ def grid_of(world: PackedWorld, i: int) -> int:
     return -1 - world.slot[i]
 
 
-@inner
+@inlined
 def obstacle_signed(world: PackedWorld, i: int, x: float, y: float, limit: float) -> float:
     """Signed distance from (x, y) to obstacle i [m]."""
     slot = world.slot[i]
@@ -43,7 +43,7 @@ def obstacle_signed(world: PackedWorld, i: int, x: float, y: float, limit: float
     return grid_signed(world, -1 - slot, x, y, limit)
 
 
-@inner
+@inlined
 def obstacle_segment(
     world: PackedWorld, i: int, ax: float, ay: float, bx: float, by: float, limit: float
 ) -> float:
@@ -57,7 +57,7 @@ def obstacle_segment(
     return grid_segment(world, -1 - slot, ax, ay, bx, by, limit)
 
 
-@inner
+@uncounted
 def cast_obstacle(
     world: PackedWorld, i: int, x: float, y: float, rays: Floats, first: float, step: float,
     reach: float, ranges: Floats,
@@ -83,7 +83,7 @@ def cast_obstacle(
         ranges[beam] = grid_range(world, -1 - slot, x, y, rays[beam], ranges[beam])
 
 
-@inner
+@uncounted
 def obstacle_features(
     world: PackedWorld, i: int, x: float, y: float, reach: float, out: Floats, count: int
 ) -> int:
@@ -97,7 +97,7 @@ def obstacle_features(
     return grid_features(world, -1 - slot, x, y, reach, out, count)
 
 
-@inner
+@uncounted
 def obstacle_corners(
     world: PackedWorld, i: int, rho: float, step: float, corners: Floats, count: int
 ) -> int:
@@ -118,7 +118,7 @@ def obstacle_corners(
     return ring_fans(world, slot, rho, step, corners, count) if slot >= 0 else count
 
 
-@inner
+@uncounted
 def mark_obstacle(
     world: PackedWorld, i: int, x: float, y: float, side: float, reach: float, cells: Bytes
 ) -> bool:
@@ -134,7 +134,7 @@ def mark_obstacle(
     return False
 
 
-@inner
+@uncounted
 def obstacle_enclosed(
     world: PackedWorld, i: int, body: Floats, outer: float, x: float, y: float, c: float, s: float
 ) -> tuple[bool, float, float]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.world.rasterize import rasterized
-from viaspline.kernels.world.segment import nearest_to_segment
+from viaspline.kernels.world.segment import segment_distance
 from viaspline.planning.routing.lattice import Lattice
 from viaspline.world.world import World
 
@@ -82,7 +82,7 @@ class FreeRooms:
         return nearer
 
     def _is_clear(self, a: Floats, b: Floats, spare: float = 0.0) -> bool:
-        room = nearest_to_segment(self.world.packed, a[0], a[1], b[0], b[1], np.inf)[0]
+        room = segment_distance(self.world.packed, a[0], a[1], b[0], b[1], np.inf)[0]
         return bool(room >= self.required + spare)
 
 

@@ -13,7 +13,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.routing.narrow_gaps import narrow_places
 from viaspline.kernels.routing.string_pulling.pull import pulled_taut
 from viaspline.kernels.routing.tangent_arcs import taut_length
-from viaspline.kernels.world.segment import nearest_to_segment
+from viaspline.kernels.world.segment import segment_distance
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.work_budget import GUIDE_OBSTACLE_S, GUIDE_S, LATTICE_S
 from viaspline.planning.routing.lattice import Lattice
@@ -189,6 +189,6 @@ def _entry(space: SearchSpace, lattice: Lattice, place: Floats) -> Floats | None
         return np.asarray(place[:2])
     packed = space.world.packed
     for x, y in middles.tolist():
-        if nearest_to_segment(packed, place[0], place[1], x, y, np.inf)[0] >= space.floor:
+        if segment_distance(packed, place[0], place[1], x, y, np.inf)[0] >= space.floor:
             return np.array((x, y))
     return None

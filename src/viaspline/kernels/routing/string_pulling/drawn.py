@@ -15,7 +15,7 @@ import math
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import new_floats
-from viaspline.kernels.jit import fused, inlined, inner
+from viaspline.kernels.jit import fused, inlined, uncounted
 from viaspline.kernels.routing.string_pulling.features import features_near
 from viaspline.kernels.routing.string_pulling.string_conflicts import (
     SAME_DISTANCE_M,
@@ -144,7 +144,7 @@ def _first_met(
     return chosen, best
 
 
-@inner
+@uncounted
 def _meets(
     world: PackedWorld, rows: Floats, k: int, old: float, heading: float, x: float, y: float,
     floor: float,

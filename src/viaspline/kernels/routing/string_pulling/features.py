@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import uncounted
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import box_signed
 from viaspline.kernels.world.ring_features import edge_features
 from viaspline.kernels.world.shape import obstacle_features
 
 
-@inner
+@uncounted
 def features_near(world: PackedWorld, x: float, y: float, reach: float, out: Floats) -> int:
     """Write the features within ``reach`` of (x, y) [m] to ``out``, (size, 5).
 

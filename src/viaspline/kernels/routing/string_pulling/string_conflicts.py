@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import fused, inner
+from viaspline.kernels.jit import fused, uncounted
 from viaspline.kernels.routing.tangent_arcs import (
     BEND_RADIUS,
     BEND_X,
@@ -25,7 +25,7 @@ SAME_DISTANCE_M = 1e-9  # [m]
 CLOSE_SHARE = 0.02  # of the distance that is kept: how exactly the place of a conflict is told
 
 
-@inner
+@uncounted
 def closest_on(
     world: PackedWorld, ax: float, ay: float, bx: float, by: float, floor: float, within: float
 ) -> tuple[float, float]:
@@ -55,7 +55,7 @@ def closest_on(
     return 0.5 * (ax + bx), 0.5 * (ay + by)
 
 
-@inner
+@uncounted
 def arc_conflict(
     world: PackedWorld, rows: Floats, k: int, begin: float, end: float, floor: float
 ) -> tuple[float, float, float]:
