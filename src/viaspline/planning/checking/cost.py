@@ -5,7 +5,9 @@ Tested through ``planning/problem/test_ledger``.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, partial
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
@@ -21,21 +23,39 @@ from viaspline.world.world import World
 CLEARANCE_TOLERANCE_M = 1e-2  # of a candidate; the path's own certificate is proven anew
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CandidateCost:
-    """What a curve costs.
+    """What a curve costs; what it isn't chosen by is reckoned where it is asked for.
 
     Attributes:
-        length: [m].
+        spans: The curve: Bézier control polygons [m], shape (m, 4, d).
         duration: The time in which it is driven, as far as its shape tells [s].
-        clearance: Proven, of the body [m].
-        max_curvature: Its sharpest bend [1/m].
+        prove: Tells its proven clearance [m].
     """
 
-    length: float
+    spans: Floats
     duration: float
-    clearance: float
-    max_curvature: float
+    prove: Callable[[], float]
+
+    @cached_property
+    def clearance(self) -> float:
+        """Proven, of the body [m]."""
+        return self.prove()
+
+    @property
+    def length(self) -> float:
+        """[m]."""
+        return self._length_and_curvature[0]
+
+    @property
+    def max_curvature(self) -> float:
+        """Its sharpest bend [1/m]."""
+        return self._length_and_curvature[1]
+
+    @cached_property
+    def _length_and_curvature(self) -> tuple[float, float]:
+        length, sharpest = length_and_curvature(self.spans)
+        return float(length), float(sharpest)
 
     def of(self, objective: Objective) -> float:
         """What it is chosen by [s or m]."""
@@ -54,18 +74,20 @@ def measure(
         ends: Whether the robot stands still where it begins, and where it ends.
     """
     requirements.spend(PROOF_S + PROOF_SPAN_S * len(spans))
-    lower = float(tightest(world.packed, spans, STILL, CLEARANCE_TOLERANCE_M)[0])
-    length, sharpest = length_and_curvature(spans)
-    clearance = max(lower - requirements.radius, requirements.kept)
     duration = leg_time(spans, requirements.objective.pace, ends)
-    return CandidateCost(float(length), duration, clearance, float(sharpest))
+    return CandidateCost(spans, duration, partial(_proven, spans, world, requirements))
+
+
+def _proven(spans: Floats, world: World, requirements: Requirements) -> float:
+    """The clearance of a disc on a curve that is known to keep what is required [m]."""
+    lower = float(tightest(world.packed, spans, STILL, CLEARANCE_TOLERANCE_M)[0])
+    return max(lower - requirements.radius, requirements.kept)
 
 
 def measure_body(
     spans: Floats, world: World, requirements: Requirements, ends: tuple[bool, bool]
 ) -> CandidateCost:
     """What a curve costs that a body drives, whether it keeps what is required or not."""
-    length, sharpest = length_and_curvature(spans)
     clearance = proven(PiecewiseCubic(spans), world, requirements).clearance
     duration = leg_time(spans, requirements.objective.pace, ends)
-    return CandidateCost(float(length), duration, clearance, float(sharpest))
+    return CandidateCost(spans, duration, partial(float, clearance))

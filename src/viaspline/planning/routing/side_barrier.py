@@ -68,10 +68,10 @@ def _place_in(world: World, index: int, start: Floats, goal: Floats) -> Floats:
     offset = ring - start
     across = along[0] * offset[:, 1] - along[1] * offset[:, 0]
     ahead = offset @ along / max(float(along @ along), 1e-300)
-    following = np.roll(across, -1)
+    following, ahead_there = (np.append(row[1:], row[0]) for row in (across, ahead))
     meets = (across > 0.0) != (following > 0.0)
     w = across[meets] / (across - following)[meets]
-    crossings = np.sort(ahead[meets] + w * (np.roll(ahead, -1) - ahead)[meets])
+    crossings = np.sort(ahead[meets] + w * (ahead_there - ahead)[meets])
     crossings = crossings[(crossings > 0.0) & (crossings < 1.0)]
     if len(crossings) > 1:
         return np.asarray(start + crossings[:2].mean() * along)

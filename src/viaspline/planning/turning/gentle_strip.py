@@ -50,6 +50,7 @@ def gentle_strips(
 
 
 def _chosen(run: BendableRun, world: World, body: StripBody, price: RunPrice) -> Tried | None:
+    """The strip of the least tension that takes hardly longer; None if no such one was found."""
     search, strip = TensionSearch(price), TenseStrip.along(run, world, body)
     if strip.has_kink:
         return None
@@ -66,6 +67,7 @@ def _chosen(run: BendableRun, world: World, body: StripBody, price: RunPrice) ->
 
 
 def _as_fine_as_it_rests(chosen: Tried) -> Iterator[TenseStrip]:
+    """A strip with its places nearer to each other, then as it was found: that may rest alone."""
     yield chosen.strip.finer().settled(chosen.tension, SETTLED)
     yield chosen.strip
 

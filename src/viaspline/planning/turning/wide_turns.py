@@ -249,7 +249,7 @@ def _shares(lengths: Floats, gaps: Floats) -> Floats:
     Of each line a turn has half, or what the other one leaves.
     """
     rooms = 2.0 * gaps
-    before, after = lengths[: len(gaps)], np.roll(lengths, -1)[: len(gaps)]
+    before, after = lengths[: len(gaps)], np.append(lengths[1:], lengths[0])[: len(gaps)]
     shares = np.full(len(lengths), np.inf)
     shares[: len(gaps)] = np.maximum(gaps, rooms - after)
     ends = np.arange(1, len(gaps) + 1) % len(lengths)
