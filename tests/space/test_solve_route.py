@@ -34,6 +34,9 @@ class OverAll:
         inner[:, 2] = ROOF + 3.0
         return [TautWay("over", inner)]
 
+    def pulled(self, leg: int, way: Floats) -> Floats | None:
+        return None
+
 
 def blocks(seed: int) -> SpatialWorld:
     rng = np.random.default_rng(seed)

@@ -15,7 +15,7 @@ import numpy as np
 
 from viaspline.curve.certificate import certify
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import GaveUpError, NoPathError
+from viaspline.errors import GaveUpError, GeometryError, NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.space.routing.way_checks import way_cost
 from viaspline.mission.model import Mission
@@ -114,6 +114,14 @@ class LegRouter:
         if solid is not None and not len(gates):
             ways += self._on_other_sides(leg, solid, cheapest.side)
         return _different([*ways, *self._with_room(leg, gates, cheapest.side)])
+
+    def pulled(self, leg: int, way: Floats) -> Floats | None:
+        """The corners of a way (n, 3) [m] of a leg pulled taut, (k, 3); None: it isn't free."""
+        try:
+            taut = self._router.pulled(way, self.problem.required, self._norm, self.gates(leg))
+        except GeometryError:
+            return None
+        return taut.points[1:-1]
 
     def cheapest(self, leg: int, laid: Floats) -> TautWay:
         """The cheapest way of a leg alone: found soon, and compared with no other.

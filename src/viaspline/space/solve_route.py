@@ -30,6 +30,7 @@ from viaspline.space.spatial_solution import SpatialSolution
 from viaspline.space.weighed_ways import (
     TautWay,
     WaysPast,
+    away_from_things,
     corner_radius,
     cost_of,
     least_radius,
@@ -61,6 +62,7 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
     first = problem.vias[0]
     turns = GentleTurns(
         least_radius(problem), layer.radius, layer.laid_anew, cost_of(problem),
+        away_from_things(problem), router.pulled,
         is_rolling=first.dwell is None and first.direction is not None,
     )  # fmt: skip
     found = turns.of(found)

@@ -18,6 +18,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.ledger import Candidate, PassingSide
 from viaspline.space.laying.clear_route import Check, StuckLegError, tightened_leg
 from viaspline.space.laying.leg_polygon import LegPolygon
+from viaspline.space.laying.turn_ways import Away
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import FacingFixed, yaw_profile
@@ -29,6 +30,15 @@ GENTLEST_M: Final = 200.0
 
 WIDER: Final = 1.25
 """Than the radius at which no speed is lost: corners that are moved outward get sharper."""
+
+
+NEAR: Final = 4.0
+"""What a turn may reach lies no farther beyond what is required, of the least radius."""
+
+STEP: Final = 0.01
+"""How far off a distance is compared, of the least radius."""
+
+LEAST_STEP_M: Final = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +68,9 @@ class WaysPast(Protocol):
             GaveUpError: None was found.
         """
 
+    def pulled(self, leg: int, way: Floats) -> Floats | None:
+        """The corners of a way (n, 3) [m] of a leg pulled taut, (k, 3); None: it isn't free."""
+
 
 def least_radius(problem: SpatialProblem) -> float:
     """The radius of a turn that is round enough for a body: its own [m]."""
@@ -77,6 +90,23 @@ def cost_of(problem: SpatialProblem) -> Callable[[Floats], float]:
 def law_of(problem: SpatialProblem, path: Path) -> Trajectory:
     """The fastest law along a curve alone, from rest to rest, wherever the body looks."""
     return retime_in_space(path, problem.limits, (), yaw_profile(path, FacingFixed(0.0)))
+
+
+def away_from_things(problem: SpatialProblem) -> Away:
+    """The direction away from what is so near to a place that a turn may reach it."""
+    near = problem.required + NEAR * least_radius(problem)
+    step = max(STEP * least_radius(problem), LEAST_STEP_M)
+
+    def away(place: Floats) -> Floats:
+        around = place + step * np.concatenate((np.zeros((1, 3)), np.eye(3), -np.eye(3)))
+        free = problem.world.distance(around)
+        if free[0] >= near:
+            return np.full(3, np.nan)
+        slope = free[1:4] - free[4:7]
+        size = float(np.linalg.norm(slope))
+        return np.asarray(slope / size) if size > 0.0 else np.full(3, np.nan)
+
+    return away
 
 
 def corner_radius(problem: SpatialProblem) -> float:

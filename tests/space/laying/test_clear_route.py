@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.space.laying.clear_route import Check, StuckLegError, clear_route
-from viaspline.space.laying.laid_route import CurveShape, RouteLegs
+from viaspline.space.laying.laid_route import CurveShape, RouteLegs, lay_route
 
 KEPT = 1.0
 
@@ -80,6 +80,21 @@ def test_corners_are_tightened_where_they_come_too_near_and_nowhere_else() -> No
     radii = found.legs.radii[0]
     assert radii[1] == 30.0
     assert radii[2] < 30.0
+
+
+def test_only_the_corner_that_is_why_stays_tight() -> None:
+    """Of both corners beside a place that fails, one has nothing to do with it."""
+    vias = np.array([[0.0, 0, 5], [60, 0, 5]])
+    inner = np.array([[15.0, 12, 5], [45, 12, 5]])
+    center, radius = np.array([[30.0, 9.4, 5], [40.0, 14.4, 5]]), np.array([1.5, 1.0])
+    start = RouteLegs.left_to_the_spline(vias, np.full((2, 3), np.nan), CurveShape(np.zeros(1)))
+    check = sampled(center, radius)
+    found = clear_route(start.led_round(0, inner, 30.0), check, lambda leg, laid: inner, 30.0)
+    radii = found.legs.radii[0]
+    assert check(0, found.laid.spans) is None
+    for corner in np.flatnonzero(radii < 30.0).tolist():
+        wider = found.legs.tightened(0, corner, 1.5)
+        assert check(0, lay_route(wider).spans) is not None
 
 
 def test_a_leg_whose_taut_way_is_not_clear_is_stuck_and_says_which_one() -> None:

@@ -26,11 +26,21 @@ def nothing_in_the_way(leg: int, laid: Floats) -> Floats:
     raise AssertionError("nothing stands here")
 
 
+def nothing_near(place: Floats) -> Floats:
+    return np.full(len(place), np.nan)
+
+
+def straight(leg: int, way: Floats) -> Floats:
+    return way[:0]
+
+
 def turns(check: Check = free) -> GentleTurns[ClearRoute]:
     def lay(legs: RouteLegs, before: ClearRoute) -> ClearRoute:
         return clear_route(legs, check, nothing_in_the_way, GENTLE)
 
-    return GentleTurns(LEAST, GENTLE, lay, lambda spans: Path(spans, []).length)
+    return GentleTurns(
+        LEAST, GENTLE, lay, lambda spans: Path(spans, []).length, nothing_near, straight
+    )
 
 
 def spline(vias: Floats, given: Floats | None = None) -> ClearRoute:

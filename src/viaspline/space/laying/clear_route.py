@@ -3,8 +3,8 @@
 The spline is laid through all via points first. Each leg of it that isn't proven clear is led round
 what is there, and the spline laid anew through the rest; a leg whose ends have a new direction by
 that is looked at again. Corners of a leg that is led round something begin as gentle as there is
-room for, and are tightened where the curve comes too near: in the end it is the taut way itself,
-which is clear.
+room for, and are tightened where the curve comes too near, but no more than that needs: in the end
+it is the taut way itself, which is clear.
 """
 
 from __future__ import annotations
@@ -22,6 +22,9 @@ from viaspline.space.laying.via_directions import via_directions
 
 TIGHTER: Final = 0.6
 """By which a corner's radius is tightened at a time."""
+
+WIDENED: Final = 0.5
+"""How exactly it is known how many times a corner has to be tightened."""
 
 LEAST_RADIUS_M: Final = 1e-4
 """Of a corner that is as good as sharp: nothing is gained by tightening it further."""
@@ -107,6 +110,9 @@ def _tightened(legs: RouteLegs, leg: int, ways: Floats, check: Check) -> RouteLe
 def tightened_leg(polygon: LegPolygon, leg: int, check: Check) -> LegPolygon:
     """A leg with its corners as tight as has to be, and no tighter than that asks for.
 
+    Both corners beside a place that fails are tightened, for either may be why; then each of them
+    is widened again as far as the leg still passes.
+
     Args:
         polygon: The leg.
         leg: Which one it is.
@@ -115,13 +121,39 @@ def tightened_leg(polygon: LegPolygon, leg: int, check: Check) -> LegPolygon:
     Raises:
         StuckLegError: When it doesn't, however tight its corners are.
     """
-    while (place := check(leg, polygon.spans()[0])) is not None:
-        corners = _corners_about(polygon, place)
+    found = polygon
+    times = np.zeros(len(polygon.radii))
+    while (place := check(leg, found.spans()[0])) is not None:
+        corners = _corners_about(found, place)
         if not corners:
             raise StuckLegError(leg, place)
-        for corner in corners:
-            polygon = polygon.tightened(corner, TIGHTER)
-    return polygon
+        times[corners] += 1
+        found = _tightened_by(polygon, times)
+    return _widened(polygon, times, leg, check) if times.any() else found
+
+
+def _tightened_by(polygon: LegPolygon, times: Floats) -> LegPolygon:
+    """A leg with each of its corners tightened so many times."""
+    return replace(polygon, radii=polygon.radii * TIGHTER**times)
+
+
+def _widened(polygon: LegPolygon, times: Floats, leg: int, check: Check) -> LegPolygon:
+    """A leg that passes with corners tightened so many times, each as few times as that needs.
+
+    The tightest corner is first, by halving how often it is tightened.
+    """
+    for corner in np.argsort(-times, kind="stable").tolist():
+        fewest, enough = 0.0, float(times[corner])
+        fewer = 0.0
+        while enough - fewest > WIDENED:
+            tried = times.copy()
+            tried[corner] = fewer
+            if check(leg, _tightened_by(polygon, tried).spans()[0]) is None:
+                enough, times = fewer, tried
+            else:
+                fewest = fewer
+            fewer = 0.5 * (fewest + enough)
+    return _tightened_by(polygon, times)
 
 
 def _corners_about(polygon: LegPolygon, place: Floats) -> list[int]:

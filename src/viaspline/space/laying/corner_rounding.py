@@ -11,21 +11,12 @@ of spirals in closed form. Their constant 7.2364 is :math:`(1 + c_2)(4 + c_2)`, 
 from __future__ import annotations
 
 import math
-from typing import Final
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-
-_C2: Final = 0.4 * (math.sqrt(6.0) - 1.0)
-_C3: Final = (_C2 + 4.0) / ((1.0 + _C2) * (_C2 + 4.0) + 6.0)
-_C4: Final = (_C2 + 4.0) ** 2 / (54.0 * _C3)
-
-SHARPEST_TURN: Final = math.radians(175.0)
-"""What turns by more than that has no rounding: the robot has to stop there."""
-
-STRAIGHT: Final = 1e-9
-"""What turns by less than that [rad] is no corner."""
+from viaspline.kernels.space.corner_polygon import C4, CUT
+from viaspline.kernels.space.rounded_corners import rounded_corners
 
 
 def turning(points: Floats) -> Floats:
@@ -58,13 +49,13 @@ def sharpest_radius(reach: float, turn: float) -> float:
     0.63
     """
     half = 0.5 * turn
-    return reach * math.cos(half) ** 2 / (_C4 * math.sin(half)) if turn > 0.0 else math.inf
+    return reach * math.cos(half) ** 2 / (C4 * math.sin(half)) if turn > 0.0 else math.inf
 
 
 def reach_of_radius(radius: float, turn: float) -> float:
     """How far before a corner its rounding has to begin [m] to be no sharper than a radius [m]."""
     half = 0.5 * turn
-    return radius * _C4 * math.sin(half) / math.cos(half) ** 2
+    return radius * C4 * math.sin(half) / math.cos(half) ** 2
 
 
 def cut(reach: float, turn: float) -> float:
@@ -73,7 +64,7 @@ def cut(reach: float, turn: float) -> float:
     >>> round(cut(1.0, math.pi / 2), 4)
     0.3206
     """
-    return (1.0 - _C3 * (1.0 + _C2)) * math.sin(0.5 * turn) * reach
+    return CUT * math.sin(0.5 * turn) * reach
 
 
 def rounded(points: Floats, reaches: Floats) -> Floats:
@@ -92,32 +83,8 @@ def rounded(points: Floats, reaches: Floats) -> Floats:
     >>> spans.shape, spans[1, 3].round(3)
     ((4, 4, 3), array([3.547, 0.453, 0.   ]))
     """
-    ways = np.diff(points, axis=0)
-    lengths = np.linalg.norm(ways, axis=1)
-    ways = ways / lengths[:, None]
-    turns = turning(points) if len(points) > 2 else np.empty(0)
-    spans: list[Floats] = []
-    here = points[0]
-    for k, (turn, reach) in enumerate(zip(turns.tolist(), reaches.tolist(), strict=True)):
-        corner = points[k + 1]
-        if turn <= STRAIGHT:
-            continue
-        if reach <= 0.0:
-            spans.append(straight_span(here, corner))
-            here = corner
-            continue
-        first, last = _spirals(corner, -ways[k], ways[k + 1], reach, turn)
-        if np.linalg.norm(first[0] - here) > 1e-9 * (1.0 + lengths[k]):
-            spans.append(straight_span(here, first[0]))
-        else:
-            first[0] = here
-        spans += [first, last]
-        here = last[3]
-    if np.linalg.norm(points[-1] - here) > 1e-9 * (1.0 + lengths[-1]) or not spans:
-        spans.append(straight_span(here, points[-1]))
-    else:
-        spans[-1][3] = points[-1]
-    return np.stack(spans)
+    spans: Floats = rounded_corners(points, reaches)
+    return spans
 
 
 def straight_span(first: Floats, last: Floats) -> Floats:
@@ -126,17 +93,3 @@ def straight_span(first: Floats, last: Floats) -> Floats:
     line: Floats = (1.0 - shares) * first + shares * last
     line[3] = last
     return line
-
-
-def _spirals(
-    corner: Floats, back: Floats, on: Floats, reach: float, turn: float
-) -> tuple[Floats, Floats]:
-    """The two cubics of one corner; ``back`` and ``on`` are unit vectors away from it."""
-    inner, outer = _C3 * reach, _C2 * _C3 * reach
-    half = 6.0 * _C3 * math.cos(0.5 * turn) / (_C2 + 4.0) * reach
-    over = on - back
-    over = over / np.linalg.norm(over)
-    first = corner + back * np.array([[reach], [reach - outer], [reach - outer - inner], [0.0]])
-    last = corner + on * np.array([[0.0], [reach - outer - inner], [reach - outer], [reach]])
-    first[3] = last[0] = 0.5 * ((first[2] + half * over) + (last[1] - half * over))
-    return first, last

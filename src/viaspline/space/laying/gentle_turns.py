@@ -1,16 +1,18 @@
-"""Turns at via points that are no sharper than a radius, where the via points leave room for it.
+"""Turns that are no sharper than a radius, where there is room for it.
 
 The spline doubles back at a via point within millimetres where its next one lies behind it, and
 overshoots where its direction is given. A leg that is sharper than asked for is laid anew as a
 polygon with rounded corners, as legs are that are led round something: through a via point that has
-no direction across the middle of its turn, and from one that has by an arc towards what is next.
+no direction across the middle of its turn or along what is near, and from one that has by an arc
+towards what is next. What comes behind such a turn is pulled taut from where it ends, for the taut
+way from the via point itself has no room beside it. Corners that are close together become fewer.
 What isn't clear then, or no gentler, is left as it was.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, Generic, NamedTuple, TypeVar
 
@@ -19,7 +21,17 @@ import numpy as np
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError
+from viaspline.space.laying.fewer_corners import fewer_corners
 from viaspline.space.laying.laid_route import RouteLegs
+from viaspline.space.laying.turn_arcs import arc, asides
+from viaspline.space.laying.turn_ways import (
+    LEAST_WAY,
+    Away,
+    across_turn,
+    beside,
+    head_of,
+    other_ways,
+)
 
 ROUND: Final = 0.999
 """A turn that is this near to the least radius is as round."""
@@ -27,14 +39,8 @@ ROUND: Final = 0.999
 ROOMY: Final = 1.25
 """Than the least radius the wanted one is so much wider: corners that are moved get sharper."""
 
-ARC_STEP: Final = math.radians(60.0)
-"""By so much an arc turns at each of its corners, at most."""
-
 ARC_SHARE: Final = 0.77
 """The radius in the middle of such a corner, of the arc's: it is gentler before and after."""
-
-ABOUT: Final = math.radians(100.0)
-"""What lies farther round from a direction than that is gone to by an arc."""
 
 LEAST_GAIN: Final = 0.002
 """By so many orders of magnitude at least a turn has to get gentler."""
@@ -44,9 +50,6 @@ DEARER: Final = 1.02
 
 NO_RADIUS_M: Final = 1e-6
 """What is sharper is as good as a corner."""
-
-LEAST_WAY: Final = 1e-6
-"""Shorter ways have no direction."""
 
 CORNER: Final = 1e-4
 """What turns by more than that at a joint [rad] is a corner."""
@@ -60,11 +63,25 @@ Cost = Callable[[Floats], float]
 """What spans (m, 4, 3) cost to fly: time or length."""
 
 
+Pull = Callable[[int, Floats], Floats | None]
+"""From a leg and a way (n, d) [m] to the corners of that way pulled taut, (k, d); None: it isn't
+free."""
+
+
 class _Turn(NamedTuple):
-    """A leg that is too sharp, and the via point that it is sharp near by."""
+    """A leg that is too sharp, and what it is sharp near by.
+
+    Attributes:
+        leg: Which one.
+        via: The via point at its end that is nearer.
+        corner: Which of its corners is nearer than that; -1: none.
+        radius: How sharp it is [m].
+    """
 
     leg: int
     via: int
+    corner: int
+    radius: float
 
 
 @dataclass(frozen=True)
@@ -76,6 +93,8 @@ class GentleTurns(Generic[Route]):
         radius: Of curvature, to be had if there is room [m].
         lay: Lays a route.
         cost: What a curve costs.
+        away: From what is near.
+        pull: Pulls ways taut.
         is_rolling: Whether the robot is under way where the route begins: it can't turn there.
     """
 
@@ -83,6 +102,8 @@ class GentleTurns(Generic[Route]):
     radius: float
     lay: Lay[Route]
     cost: Cost
+    away: Away
+    pull: Pull
     is_rolling: bool = False
 
     def of(self, found: Route) -> Route:
@@ -94,29 +115,43 @@ class GentleTurns(Generic[Route]):
         return found
 
     def _sharp(self, found: ClearRoute) -> Iterator[_Turn]:
-        """The legs of a route that are too sharp, each with the end that is nearer to where."""
+        """The legs of a route that are too sharp, each with what is near to where."""
         for leg in range(len(found.legs.inner)):
             spans = found.laid.leg(leg)
             radius, u = _sharpest(spans)
             if radius < ROUND * self.least:
                 curve = Path(spans, [])
-                yield _Turn(leg, leg + int(curve.distance(u) > 0.5 * curve.length))
+                at = float(curve.distance(u))
+                joints = found.laid.detours[leg] - found.laid.joints[leg]
+                corners = np.abs(np.asarray(curve.distance(joints.astype(float))) - at)
+                corner = int(np.argmin(corners)) if len(corners) else -1
+                if corner >= 0 and min(at, curve.length - at) < corners[corner]:
+                    corner = -1
+                via = leg + int(at > 0.5 * curve.length)
+                yield _Turn(leg, via, corner, round(radius, 6))
 
     def _bent(self, found: Route, turn: _Turn) -> Route:
         """A route with one of its turns laid anew; itself, where that gains nothing."""
         best, rank = found, (self._lack(found) - LEAST_GAIN, math.inf)
         most = self.cost(found.laid.spans)
-        for legs in self._other_turns(found, turn):
-            try:
-                laid = self.lay(legs, found)
-            except StuckLegError:
-                continue
-            its = self._lack(laid)
-            if its > rank[0] or (its, cost := self.cost(laid.laid.spans)) >= rank:
-                continue
-            if cost <= DEARER * most or turn.leg not in {one.leg for one in self._sharp(laid)}:
-                best, rank = laid, (its, cost)
+        for several in self._other_turns(found, turn):
+            for legs in several:
+                try:
+                    laid = self.lay(legs, found)
+                except StuckLegError:
+                    continue
+                its = self._lack(laid)
+                if its > rank[0] or (its, cost := self.cost(laid.laid.spans)) >= rank:
+                    continue
+                if cost <= DEARER * most or self._is_round(laid, turn):
+                    best, rank = laid, (its, cost)
+            if self._is_round(best, turn):
+                break
         return best
+
+    def _is_round(self, found: ClearRoute, turn: _Turn) -> bool:
+        """Whether a leg isn't too sharp any more."""
+        return _sharpest(found.laid.leg(turn.leg))[0] >= ROUND * self.least
 
     def _lack(self, found: ClearRoute) -> float:
         """By how much the legs of a route are too sharp together, each by orders of magnitude."""
@@ -124,126 +159,107 @@ class GentleTurns(Generic[Route]):
         sharp = (max(radius, NO_RADIUS_M) for radius in sharpest if radius < ROUND * self.least)
         return sum(round(math.log10(self.least / radius), 3) for radius in sharp)
 
-    def _other_turns(self, found: Route, turn: _Turn) -> Iterator[RouteLegs]:
-        """Ways to turn at a via point in place of the one that is too sharp."""
-        legs, wanted, via = found.legs, ROOMY * self.least, turn.via
+    def _other_turns(self, found: Route, turn: _Turn) -> Iterator[Iterator[RouteLegs]]:
+        """Ways to turn in place of the one that is too sharp, the likelier ones first."""
+        legs, via = found.legs, turn.via
+        if turn.corner >= 0:
+            yield self._with_fewer_corners(legs, turn)
         if 0 < via < len(legs.vias) - 1 and np.isnan(legs.given[via]).any():
             joint = found.laid.joints[via]
             own = found.laid.spans[joint, 1] - found.laid.spans[joint, 0]
-            for way in (_across(legs, via), own / np.linalg.norm(own)):
-                given = legs.given.copy()
-                given[via] = way
-                through = replace(legs, given=given)
-                for radius in (wanted, ROOMY * wanted, self.radius):
-                    before = self._turning(through, via - 1, via, radius)
-                    yield self._turning(before, via, via, radius)
-                if not self.is_rolling:
-                    before = self._turning(through, via - 1, via, wanted, rest=wanted)
-                    yield self._turning(before, via, via, wanted, rest=wanted)
-            return
-        if self.is_rolling and via == 0:
-            return
-        way = legs.given[via]
+            own = own / np.linalg.norm(own)
+            middle = across_turn(beside(legs, via, -1), beside(legs, via, 1))
+            yield self._through(legs, via, (middle, own))
+            yield self._through(legs, via, other_ways(legs, via, own, self.away(legs.vias[via])))
+        elif not self.is_rolling or via > 0:
+            yield self._from_end(legs, turn)
+
+    def _with_fewer_corners(self, legs: RouteLegs, turn: _Turn) -> Iterator[RouteLegs]:
+        """Ways to have fewer corners where one of a leg is too sharp."""
+        inner = legs.inner[turn.leg]
+        assert inner is not None  # it has a corner
+        radii = legs.radii[turn.leg]
+        points = np.concatenate((legs.vias[turn.leg][None], inner, legs.vias[turn.leg + 1][None]))
+        for first, last, instead in fewer_corners(points, turn.corner + 1, ROOMY * self.least):
+            corners = np.concatenate((points[1:first], instead, points[last + 1 : -1]))
+            wide = np.full(len(instead), self.radius)
+            its = np.concatenate((radii[:first], wide, radii[last + 1 :]))
+            yield legs.with_polygon(turn.leg, corners, its)
+
+    def _through(self, legs: RouteLegs, via: int, ways: Iterable[Floats]) -> Iterator[RouteLegs]:
+        """Ways to turn at a via point that has no direction, through it along one of these."""
+        wanted = ROOMY * self.least
+        for way in ways:
+            given = legs.given.copy()
+            given[via] = way
+            through = replace(legs, given=given)
+            for radius, rest in self._radii(wanted, self.radius):
+                before = self._turning(through, via - 1, via, radius, rest)
+                yield self._turning(before, via, via, radius, rest)
+
+    def _radii(self, *of_turn: float) -> Iterator[tuple[float, float | None]]:
+        """Radii of a turn and of other corners; see ``_turning``."""
+        wanted = of_turn[0]
+        for radius in dict.fromkeys(of_turn):
+            yield radius, self.radius
+        yield wanted, None
+        if not self.is_rolling and wanted != self.radius:
+            yield wanted, wanted
+
+    def _from_end(self, legs: RouteLegs, turn: _Turn) -> Iterator[RouteLegs]:
+        """Ways to turn towards what is next where a leg ends in a direction that is given."""
+        wanted, way = ROOMY * self.least, legs.given[turn.via]
         if not np.isnan(way).any():
-            for aside in _asides(legs, turn, way):
-                arc = _arc(legs, turn, way, aside, wanted / ARC_SHARE)
-                yield self._turning(legs, turn.leg, via, wanted, arc)
-        for rest in (self.radius, wanted):
-            yield self._turning(legs, turn.leg, via, wanted, rest=rest)
+            for aside in asides(legs, turn.leg, turn.via, way):
+                begun = arc(legs, turn.leg, turn.via, way, aside, wanted / ARC_SHARE)
+                for radius, rest in self._radii(wanted):
+                    yield self._turning(legs, turn.leg, turn.via, radius, rest, begun)
+        for radius, rest in self._radii(wanted):
+            yield self._turning(legs, turn.leg, turn.via, radius, rest)
 
     def _turning(
-        self, legs: RouteLegs, leg: int, via: int, radius: float, arc: Floats | None = None, *,
-        rest: float | None = None,
+        self, legs: RouteLegs, leg: int, via: int, radius: float, rest: float | None,
+        begun: Floats | None = None,
     ) -> RouteLegs:  # fmt: skip
         """A route with one leg a polygon that turns by a radius [m] at one of its ends.
 
+        Its corners are those of the taut way between where it has turned at its ends.
+
         Args:
             legs: Of the route.
-            leg: Which one it is; its corners stay.
+            leg: Which one it is.
             via: The via point at that end.
             radius: There.
-            arc: Corners that it has beside these, from that via point on [m], (k, d).
-            rest: At its other corners [m]; None: as gentle as there is room for.
+            rest: At its other corners and its other end [m]; None: at that end as it is.
+            begun: Corners that it turns at from that via point on [m], (k, d).
         """
         inner = legs.inner[leg]
-        corners = np.empty((0, legs.vias.shape[1])) if inner is None else inner
-        beside = corners[:0] if arc is None else arc
-        radii = np.full(len(corners) + 1, self.radius if rest is None else rest)
-        close = np.full(len(beside) + 1, radius)
-        if via == leg:
-            corners, radii = np.concatenate((beside, corners)), np.concatenate((close, radii))
-        else:
-            corners = np.concatenate((corners, beside[::-1]))
-            radii = np.concatenate((radii, close))
-        return legs.with_polygon(leg, corners, radii)
+        corners = legs.vias[:0] if inner is None else inner
+        other = self.radius if rest is None else rest
+        if rest is None and inner is not None:
+            other = float(legs.radii[leg][-1 if via == leg else 0])
+        by_way = via == leg
+        ends = (radius, other) if by_way else (other, radius)
+        heads = [head_of(legs, leg, end, ends[end]) for end in (0, 1)]
+        begun = legs.vias[:0] if begun is None else begun
+        if len(begun):
+            heads[0 if by_way else 1] = np.concatenate((legs.vias[via][None], begun))
+        between = self.pull(leg, np.concatenate((heads[0][::-1], corners, heads[1])))
+        if between is not None and all(
+            _are_apart(heads[0][k][None], between, heads[1][k][None]) for k in (0, -1)
+        ):
+            corners = between
+        wide = np.full(len(corners), self.radius if rest is None else rest)
+        close = np.full(len(begun), radius)
+        first, last = (begun, begun[:0]) if by_way else (begun[:0], begun[::-1])
+        radii = np.concatenate((ends[:1], close[: len(first)], wide, close[: len(last)], ends[1:]))
+        return legs.with_polygon(leg, np.concatenate((first, corners, last)), radii)
 
 
-def _beside(legs: RouteLegs, via: int, step: int) -> Floats:
-    """The way from a via point to what comes before it (step -1) or after it (1) [m], (d,)."""
-    inner = legs.inner[via if step > 0 else via - 1]
-    if inner is None or not len(inner):
-        return np.asarray(legs.vias[via + step] - legs.vias[via])
-    return np.asarray(inner[0 if step > 0 else -1] - legs.vias[via])
-
-
-def _across(legs: RouteLegs, via: int) -> Floats:
-    """The direction across the middle of a turn: as far from the way in as from the way out."""
-    back, on = _beside(legs, via, -1), _beside(legs, via, 1)
-    back, on = back / np.linalg.norm(back), on / np.linalg.norm(on)
-    way = on - back
-    if np.linalg.norm(way) < LEAST_WAY:  # straight back: to the left, level
-        way = np.zeros_like(on)
-        way[:2] = -on[1], on[0]
-        if not way.any():
-            way[0] = 1.0  # straight up and down
-    return np.asarray(way / np.linalg.norm(way))
-
-
-def _asides(legs: RouteLegs, turn: _Turn, way: Floats) -> Iterator[Floats]:
-    """The directions square to a given one in which an arc towards what is next may turn.
-
-    Towards it, and to both sides where it lies behind.
-    """
-    to = _beside(legs, turn.via, 1 if turn.via == turn.leg else -1)
-    if turn.via != turn.leg:
-        way = -way
-    to = to / np.linalg.norm(to)
-    if float(to @ way) > math.cos(ABOUT):
-        return
-    towards = to - (to @ way) * way
-    size = float(np.linalg.norm(towards))
-    if size > LEAST_WAY:
-        yield towards / size
-    level = np.array([-way[1], way[0], 0.0])
-    size = float(np.linalg.norm(level))
-    if size > LEAST_WAY:
-        yield level / size
-        yield -level / size
-
-
-def _arc(legs: RouteLegs, turn: _Turn, way: Floats, aside: Floats, radius: float) -> Floats:
-    """The corners of an arc from a via point's direction to what is next [m], from there on.
-
-    Args:
-        legs: Of the route.
-        turn: The leg, and the via point where the arc begins or ends.
-        way: The direction there.
-        aside: Where the arc turns, square to it.
-        radius: Of the arc [m].
-    """
-    leaves = turn.via == turn.leg
-    place, way = legs.vias[turn.via], way if leaves else -way
-    centre = place + radius * aside
-    to = place + _beside(legs, turn.via, 1 if leaves else -1) - centre
-    # From the centre the via point lies against `aside`, and flight begins along `way`.
-    along, across = float(to @ way), float(to @ -aside)
-    distance = math.hypot(along, across)
-    angle = math.atan2(along, across) % math.tau
-    angle -= math.acos(min(1.0, radius / distance)) if distance > 0.0 else 0.0
-    angle = angle % math.tau
-    steps = max(1, math.ceil(angle / ARC_STEP))
-    at = (np.arange(steps) + 0.5) * angle / steps
-    return np.asarray(centre + radius * (np.sin(at)[:, None] * way - np.cos(at)[:, None] * aside))
+def _are_apart(*places: Floats) -> bool:
+    """Whether no two neighbours of these places (n, d) are one."""
+    sides = np.linalg.norm(np.diff(np.concatenate(places), axis=0), axis=1)
+    return bool(sides.min() > LEAST_WAY)
 
 
 def _sharpest(spans: Floats) -> tuple[float, float]:

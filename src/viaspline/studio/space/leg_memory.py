@@ -53,6 +53,10 @@ class RememberedWays:
             self.known[key] = found
         return self.known[key]
 
+    def pulled(self, leg: int, way: Floats) -> Floats | None:
+        """The corners of a way (n, 3) [m] of a leg pulled taut, (k, 3); None: it isn't free."""
+        return self._router.pulled(leg, way)
+
     def _key(self, leg: int, laid: Floats) -> LegKey:
         problem = self._router.problem
         proof = certify(
