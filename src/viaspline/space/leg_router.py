@@ -164,12 +164,13 @@ class LegRouter:
         if self.problem.objective == "length":
             return
         first, last = self._ends(leg)
-        kept = self.problem.required
+        kept, quick = self.problem.required, self._router.quick
         body = max(kept + float(self.problem.world.packed.core[0]), LEAST_BODY_M)
         for share in ROOM:
-            outcome = self._router.find(first, last, kept + share * body, self._norm, gates)
-            if isinstance(outcome, Found):
-                yield TautWay(side, outcome.value.points[1:-1])
+            outcome = quick.find(first, last, kept + share * body, self._norm, gates)
+            if not isinstance(outcome, Found):
+                return  # where there is no room for less, there is none for more
+            yield TautWay(side, outcome.value.points[1:-1])
 
     def _in_the_way(self, laid: Floats) -> Solid | None:
         """The solid that a curve is nearest to; None if that is something else."""

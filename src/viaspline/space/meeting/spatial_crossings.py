@@ -163,11 +163,9 @@ def _pairs_within(
     tree, there = cKDTree(places), cKDTree(others)
     if tree.count_neighbors(there, 1.0, p=np.inf) > MAX_PAIRS:
         raise _too_many(courses, who)
-    found = tree.query_ball_tree(there, 1.0, p=np.inf)
-    counts = np.array([len(row) for row in found])
-    i = np.repeat(np.arange(len(found)), counts)
-    j = np.array([index for row in found for index in row], np.int64)
-    return i, j
+    found = tree.sparse_distance_matrix(there, 1.0, p=np.inf, output_type="ndarray")
+    order = np.lexsort((found["j"], found["i"]))
+    return found["i"][order].astype(np.int64), found["j"][order].astype(np.int64)
 
 
 def _boxes(mine: _Pieces, its: _Pieces, i: Ints, j: Ints) -> tuple[Ints, Floats, Floats]:

@@ -8,7 +8,7 @@ Tested through ``space/routing/test_space_router``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -58,13 +58,13 @@ def seeds(
         GeometryError: See ``SpaceRouter.find``.
     """
     found: list[SideSeed] = []
-    coarse = replace(router, halvings=0)  # a side that there is not would be sought in vain
+    quick = router.quick  # a side that there is not would be sought in vain
     apart = 2.0 * (required + router.room.body)
     for side in SIDE_BITS:
         row = gate(obstacle, start, goal, [side])
         if not len(row):
             continue
-        outcome = coarse.find(start, goal, required, norm, row)
+        outcome = quick.find(start, goal, required, norm, row)
         if isinstance(outcome, Found):
             free = router.pulled(np.array(outcome.value.points), required, norm)
             found.append(SideSeed(side, free if free.cost < outcome.cost else outcome.value))

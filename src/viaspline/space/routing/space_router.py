@@ -9,7 +9,7 @@ the two places there is no route, and that is proven. Else the search gives up a
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -88,6 +88,11 @@ class SpaceRouter:
     most_nodes: int = 100_000
     most_cells: int = 400_000
     halvings: int = 2
+
+    @property
+    def quick(self) -> SpaceRouter:
+        """This one for ways that needn't be there: on one lattice, and without a proof."""
+        return replace(self, halvings=0, most_cells=0)
 
     def find(
         self,
