@@ -34,6 +34,8 @@ def told_faults(
         yield "goal", f"reached, but {math.dist(expected[-1], at[-1]):.5f} m off"
     if rows["speed_mps"][-1] > 1e-4:
         yield "goal", f"reached at {rows['speed_mps'][-1]} m/s"
+    if asked.data["route"].get("order") == "shortest" and "land" in asked.data["route"]:
+        del expected[-2]  # it lands from the height of its last via point
     for place in expected:
         a, b = at[:-1], at[1:]
         way = b - a
