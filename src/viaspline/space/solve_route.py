@@ -141,11 +141,12 @@ def _directions(problem: SpatialProblem) -> Floats:
     """Directions that are fixed at the via points, (n, 3), NaN where free.
 
     A round that has none where it closes passes there as the spline would, so that it closes
-    smoothly.
+    smoothly; but not where it lands there, for it hovers before that.
     """
     free = np.full(3, np.nan)
     given = np.array([free if via.direction is None else via.direction for via in problem.vias])
-    if problem.is_round and np.isnan(given[[0, -1]]).all():
+    lands = problem.landing is not None
+    if problem.is_round and not lands and np.isnan(given[[0, -1]]).all():
         places = problem.places
         around = np.array([places[-2], places[0], places[1]])
         none = np.empty((0, 3))

@@ -123,7 +123,7 @@ def tightened_leg(polygon: LegPolygon, leg: int, check: Check) -> LegPolygon:
     """
     found = polygon
     times = np.zeros(len(polygon.radii))
-    while (place := check(leg, found.spans()[0])) is not None:
+    while (place := check(leg, found.curve())) is not None:
         corners = _corners_about(found, place)
         if not corners:
             raise StuckLegError(leg, place)
@@ -148,7 +148,7 @@ def _widened(polygon: LegPolygon, times: Floats, leg: int, check: Check) -> LegP
         while enough - fewest > WIDENED:
             tried = times.copy()
             tried[corner] = fewer
-            if check(leg, _tightened_by(polygon, tried).spans()[0]) is None:
+            if check(leg, _tightened_by(polygon, tried).curve()) is None:
                 enough, times = fewer, tried
             else:
                 fewest = fewer

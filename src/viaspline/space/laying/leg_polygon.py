@@ -53,8 +53,12 @@ class LegPolygon:
         >>> spans[int(joints[0]), 0].round(3) + 0.0
         array([10.,  0.,  0.])
         """
+        return _with_joints(self.curve(), self.points[1:-1])
+
+    def curve(self) -> Floats:
+        """The leg's curve alone: Bézier control polygons [m], (m, 4, d)."""
         polygon, reaches = corner_polygon(self.points, self.directions, self.radii)
-        return _with_joints(rounded(polygon, reaches), self.points[1:-1])
+        return rounded(polygon, reaches)
 
 
 def _with_joints(spans: Floats, places: Floats) -> tuple[Floats, Floats]:
