@@ -2,6 +2,8 @@
 
     python benchmarks/strange_flight_runs.py [MISSIONS] [FIRST] [--kind KIND ...] [--plans]
 
+Seeds from 1,000,000 on are missions that are made harder (``strange_hard_flights.py``).
+
 As ``strange_runs.py`` for the plane: the kinds take turns (``strange_flights.py``), and what the
 files say is checked without the planner (``strange_flight_oracle.py`` and its neighbours). Of every
 seventh mission it is seen that it gives the same bytes again. Each fault is told with its seed.
@@ -21,18 +23,21 @@ from strange_flight_drives import flight_faults
 from strange_flight_oracle import AskedFlight, Faults
 from strange_flight_plans import flight_plan_faults
 from strange_flights import FLIGHT_KINDS, StrangeFlights
+from strange_hard_flights import HardFlights
 from strange_hunt import Found, Job, hunt, told_of
 from strange_runs import same_refusal
 
 AGAIN = 7
 SLOW_PLAN_S = 10.0
+HARD = 1_000_000
 
 
 def drawn(seed: int, kinds: tuple[str, ...], folder: Path) -> tuple[str, AskedFlight]:
     """The mission of a seed, and its kind."""
     kind = kinds[seed % len(kinds)]
     rng = np.random.default_rng((seed, 100 + FLIGHT_KINDS.index(kind)))
-    return kind, AskedFlight(StrangeFlights(rng, kind, folder).draw(), folder)
+    draws = HardFlights if seed >= HARD else StrangeFlights
+    return kind, AskedFlight(draws(rng, kind, folder).draw(), folder)
 
 
 def run(job: Job) -> Found:
