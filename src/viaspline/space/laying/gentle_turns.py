@@ -48,6 +48,9 @@ LEAST_GAIN: Final = 0.002
 DEARER: Final = 1.02
 """So much more a turn may cost that gets gentler, and still isn't round enough."""
 
+ROUND_DEARER: Final = 1.2
+"""So much more one may cost that gets round enough."""
+
 NO_RADIUS_M: Final = 1e-6
 """What is sharper is as good as a corner."""
 
@@ -143,7 +146,8 @@ class GentleTurns(Generic[Route]):
                 its = self._lack(laid)
                 if its > rank[0] or (its, cost := self.cost(laid.laid.spans)) >= rank:
                     continue
-                if cost <= DEARER * most or self._is_round(laid, turn):
+                dearer = ROUND_DEARER if self._is_round(laid, turn) else DEARER
+                if cost <= dearer * most:
                     best, rank = laid, (its, cost)
             if self._is_round(best, turn):
                 break
