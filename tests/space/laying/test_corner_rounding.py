@@ -6,13 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.space.laying.corner_rounding import (
-    cut,
-    reach_of_radius,
-    rounded,
-    sharpest_radius,
-    turning,
-)
+from viaspline.kernels.space.corner_polygon import C4, CUT
+from viaspline.space.laying.corner_rounding import rounded
 
 seeds = st.integers(0, 10_000)
 
@@ -23,6 +18,30 @@ def zigzag(seed: int) -> tuple[np.ndarray, np.ndarray]:
     points = np.cumsum(rng.normal(0, 1, (int(rng.integers(3, 8)), 3)), axis=0)
     sides = np.linalg.norm(np.diff(points, axis=0), axis=1)
     return points, rng.uniform(0.1, 0.5, len(points) - 2) * np.minimum(sides[1:], sides[:-1])
+
+
+def turning(points: np.ndarray) -> np.ndarray:
+    """By how much a polyline turns at each of its inner corners [rad]."""
+    ways = np.diff(points, axis=0)
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    across = np.linalg.norm(ways[1:] - ways[:-1], axis=1)
+    along = np.linalg.norm(ways[1:] + ways[:-1], axis=1)
+    return np.asarray(2.0 * np.arctan2(across, along))
+
+
+def sharpest_radius(reach: float, turn: float) -> float:
+    """The radius in the middle of a corner [m]."""
+    return reach * math.cos(0.5 * turn) ** 2 / (C4 * math.sin(0.5 * turn))
+
+
+def reach_of_radius(radius: float, turn: float) -> float:
+    """How far before a corner its rounding begins to be no sharper than a radius [m]."""
+    return radius * C4 * math.sin(0.5 * turn) / math.cos(0.5 * turn) ** 2
+
+
+def cut(reach: float, turn: float) -> float:
+    """How near the rounding comes to the corner that it cuts [m]."""
+    return CUT * math.sin(0.5 * turn) * reach
 
 
 @given(seed=seeds)

@@ -154,10 +154,8 @@ def is_paused(context: ReplanContext, free: float) -> bool:
 
 def must_brake(context: ReplanContext) -> bool:
     """Whether the robot has searched for as long as ``max_replan_s`` lets it under way."""
-    longest, pending = context.task.mission.robot.max_replan_s, context.schedule.pending
-    if longest is None or pending is None or context.speed == 0.0:
-        return False
-    return longest - (context.progress.time - pending.since) <= 0.0
+    is_searching = context.schedule.pending is not None
+    return context.speed > 0.0 and is_searching and _until_deadline(context) <= 0.0
 
 
 def stopping_place(context: ReplanContext) -> float:
@@ -213,7 +211,15 @@ def _left(context: ReplanContext) -> float:
 
     In the step in which it begins to brake it doesn't search: it would go on meanwhile.
     """
+    pending = context.schedule.pending
+    if pending is not None and pending.brakes:
+        return float("inf")
+    return _until_deadline(context)
+
+
+def _until_deadline(context: ReplanContext) -> float:
+    """What is left of ``max_replan_s`` [s]; inf if that isn't said."""
     longest, pending = context.task.mission.robot.max_replan_s, context.schedule.pending
-    if longest is None or (pending is not None and pending.brakes):
+    if longest is None:
         return float("inf")
     return longest if pending is None else longest - (context.progress.time - pending.since)

@@ -10,61 +10,10 @@ of spirals in closed form. Their constant 7.2364 is :math:`(1 + c_2)(4 + c_2)`, 
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.space.corner_polygon import C4, CUT
 from viaspline.kernels.space.rounded_corners import rounded_corners
-
-
-def turning(points: Floats) -> Floats:
-    """By how much a polyline turns at each of its inner corners.
-
-    Args:
-        points: Its corners [m], shape (n, d), no two neighbours the same.
-
-    Returns:
-        Angles [rad], 0 to pi, shape (n - 2,).
-
-    >>> np.degrees(turning(np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0]]))).round(6)
-    array([90.])
-    """
-    ways = np.diff(points, axis=0)
-    ways /= np.linalg.norm(ways, axis=1)[:, None]
-    across = np.linalg.norm(ways[1:] - ways[:-1], axis=1)
-    along = np.linalg.norm(ways[1:] + ways[:-1], axis=1)
-    return np.asarray(2.0 * np.arctan2(across, along))
-
-
-def sharpest_radius(reach: float, turn: float) -> float:
-    """Radius of curvature [m] in the middle of a corner.
-
-    Args:
-        reach: How far before and after the corner the rounding begins and ends [m].
-        turn: By how much the polyline turns there [rad].
-
-    >>> round(sharpest_radius(1.0, math.pi / 2), 3)
-    0.63
-    """
-    half = 0.5 * turn
-    return reach * math.cos(half) ** 2 / (C4 * math.sin(half)) if turn > 0.0 else math.inf
-
-
-def reach_of_radius(radius: float, turn: float) -> float:
-    """How far before a corner its rounding has to begin [m] to be no sharper than a radius [m]."""
-    half = 0.5 * turn
-    return radius * C4 * math.sin(half) / math.cos(half) ** 2
-
-
-def cut(reach: float, turn: float) -> float:
-    """How near the rounding comes to the corner that it cuts [m].
-
-    >>> round(cut(1.0, math.pi / 2), 4)
-    0.3206
-    """
-    return CUT * math.sin(0.5 * turn) * reach
 
 
 def rounded(points: Floats, reaches: Floats) -> Floats:

@@ -82,12 +82,6 @@ class RouteLegs:
             radii=(*self.radii[:leg], radii, *self.radii[leg + 1 :]),
         )
 
-    def tightened(self, leg: int, corner: int, share: float) -> RouteLegs:
-        """This route, turning more tightly at one corner of a leg that is led round something."""
-        radii = self.radii[leg].copy()
-        radii[corner] *= share
-        return replace(self, radii=(*self.radii[:leg], radii, *self.radii[leg + 1 :]))
-
 
 @dataclass(frozen=True, eq=False)
 class LaidRoute:

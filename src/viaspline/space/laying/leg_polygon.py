@@ -9,7 +9,7 @@ a detour via point is where the curve is in the middle of that.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -33,12 +33,6 @@ class LegPolygon:
     points: Floats
     directions: Floats
     radii: Floats
-
-    def tightened(self, corner: int, share: float) -> LegPolygon:
-        """This leg, turning more tightly at one of its points."""
-        radii = self.radii.copy()
-        radii[corner] *= share
-        return replace(self, radii=radii)
 
     def spans(self) -> tuple[Floats, Floats]:
         """The leg's curve.
