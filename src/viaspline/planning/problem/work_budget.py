@@ -55,6 +55,9 @@ POSES_EFFORT_S = 2.5e-6
 """for each distance to the world that is reckoned in it, as much for some that are looked up, for
 each connection that is tried and each move that is done [s]."""
 
+PASSAGES_S = 2e-2
+"""Of the narrow places of a leg that it is led by [s]."""
+
 CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""
 

@@ -5,8 +5,10 @@ Tested through ``planning/methods/test_ordered``.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -52,13 +54,18 @@ SAME_BEND = 0.25  # bends nearer to each other than this, in required distances,
 
 @dataclass(frozen=True)
 class Stuck:
-    """Where a turn path could not be pushed clear.
+    """A turn path that could not be pushed clear.
 
     Attributes:
-        places: The leg, and what its taut path goes by there [m], (2,).
+        find: Finds the places where it got stuck.
     """
 
-    places: tuple[tuple[int, Floats], ...]
+    find: Callable[[], tuple[tuple[int, Floats], ...]]
+
+    @cached_property
+    def places(self) -> tuple[tuple[int, Floats], ...]:
+        """Of each place the leg, and what its taut path goes by there [m], (2,)."""
+        return self.find()
 
 
 def clear_turn_path(
@@ -79,16 +86,41 @@ def clear_turn_path(
 def clear_turn_path_or_why(
     bends: Bends, world: World, requirements: Requirements, ramp: float = RAMP
 ) -> TurnPath | Stuck:
-    """The shortest clear turn path, or where it got stuck; see ``clear_turn_path``."""
-    found = [
-        requirements.once(
-            ("pushed clear", tried.key, ramp, world),
-            partial(_pushed_clear, tried, world, requirements, ramp),
-        )
-        for tried in with_sides(bends)
-    ]
-    clear = [turn_path for turn_path in found if isinstance(turn_path, TurnPath)]
-    return min(clear, key=lambda turn_path: turn_path.length) if clear else found[0]
+    """The shortest clear turn path, or where it got stuck; see ``clear_turn_path``.
+
+    Being pushed makes a turn path no shorter, but for what shorter ramps save: sides that are
+    longer than what is clear already are left as they are.
+    """
+    best: TurnPath | None = None
+    choices = list(with_sides(bends))
+    laid = [_as_laid(each, ramp, requirements) for each in choices]
+    for first in sorted(laid, key=_length):
+        if best is not None and best.length <= _length(first):
+            break
+        found = _once_pushed(first, world, requirements, ramp)
+        if isinstance(found, TurnPath) and (best is None or found.length < best.length):
+            best = found
+    return best or _once_pushed(laid[0], world, requirements, ramp)
+
+
+def _as_laid(bends: Bends, ramp: float, requirements: Requirements) -> TurnPath | NoTurnPath:
+    """See ``_laid``."""
+    return requirements.once(("laid", bends.key, ramp), partial(_laid, bends, ramp, requirements))
+
+
+def _length(laid: TurnPath | NoTurnPath) -> float:
+    """[m]; inf where there is none."""
+    return laid.length if isinstance(laid, TurnPath) else math.inf
+
+
+def _once_pushed(
+    laid: TurnPath | NoTurnPath, world: World, requirements: Requirements, ramp: float
+) -> TurnPath | Stuck:
+    """See ``_pushed_clear``."""
+    return requirements.once(
+        ("pushed clear", laid.bends.key, ramp, world),
+        partial(_pushed_clear, laid, world, requirements, ramp),
+    )
 
 
 def turn_path_if_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
@@ -108,13 +140,12 @@ def _if_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPat
 
 
 def _pushed_clear(
-    bends: Bends, world: World, requirements: Requirements, ramp: float
+    turn_path: TurnPath | NoTurnPath, world: World, requirements: Requirements, ramp: float
 ) -> TurnPath | Stuck:
-    """The turn path to the sides that are set, pushed clear, or where it got stuck."""
-    turn_path = _laid(bends, ramp, requirements)
+    """A turn path pushed clear, to the same sides, or where it got stuck."""
     for _ in range(MAX_PUSH_ROUNDS):
         if isinstance(turn_path, NoTurnPath):
-            return _stuck_between(turn_path)
+            return Stuck(partial(_between, turn_path))
         close = body_conflicts(world, turn_path.spans, requirements)
         if (close == CLEAR).all():
             return turn_path
@@ -125,11 +156,13 @@ def _pushed_clear(
             ramp *= RAMP_SHORTENING  # the lines are far enough off, the ramps cut the corner
             pushed = _laid(turn_path.bends, ramp, requirements)
         if isinstance(pushed, NoTurnPath) or ramp < LEAST_RAMP:
-            return _stuck_at(turn_path, close, world, requirements)
+            return Stuck(partial(_first_too_close, turn_path, close, world, requirements))
         turn_path = pushed
     assert isinstance(turn_path, TurnPath)
     close = body_conflicts(world, turn_path.spans, requirements)
-    return turn_path if (close == CLEAR).all() else _stuck_at(turn_path, close, world, requirements)
+    if (close == CLEAR).all():
+        return turn_path
+    return Stuck(partial(_first_too_close, turn_path, close, world, requirements))
 
 
 def _laid(bends: Bends, ramp: float, requirements: Requirements) -> TurnPath | NoTurnPath:
@@ -145,25 +178,25 @@ def _turn_path_cost(bends: Bends) -> float:
     return TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows)
 
 
-def _stuck_between(failed: NoTurnPath) -> Stuck:
+def _between(failed: NoTurnPath) -> tuple[tuple[int, Floats], ...]:
     """Where two bends leave no room for their turns."""
     line = int(failed.lines[0])
     rows = (line, (line + 1) % len(failed.bends.rows))
-    return Stuck(tuple(
+    return tuple(
         (failed.bends.leg_of(row), failed.bends.rows[row, :2])
         for row in rows
         if failed.bends.vias[row] == DETOUR
-    ))  # fmt: skip
+    )
 
 
-def _stuck_at(
+def _first_too_close(
     turn_path: TurnPath, close: NDArray[np.int64], world: World, requirements: Requirements
-) -> Stuck:
+) -> tuple[tuple[int, Floats], ...]:
     """Where the first run of spans is too close."""
     hit = np.flatnonzero(close != CLEAR)
     run = np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)[0]
     tight = _tightest(turn_path.spans, run, world, requirements)
-    return Stuck(((turn_path.bends.leg_of(_row_before(turn_path, tight.u)), tight.wall),))
+    return ((turn_path.bends.leg_of(_row_before(turn_path, tight.u)), tight.wall),)
 
 
 def _pushed(
@@ -255,22 +288,22 @@ def _touched(
         world: What it touches.
         requirements: The body, and what it keeps.
     """
-    curve, at = PiecewiseCubic(spans), np.array(contact)
-    into = -_gradient(world, at)
-    wall = at + float(world.distance(at)) * into
+    at = np.array(contact)
+    gap, into = _gap_and_inside(world, at)
+    wall = at + gap * into
     # the front may touch where the reference point is yet to come
-    ahead = min(run[1] + SPANS_AHEAD, len(spans))
-    beside = curve.section(float(run[0]), ahead).project(wall)
-    u = float(run[0] + beside.u)
+    curve = PiecewiseCubic(spans[run[0] : run[1] + SPANS_AHEAD])
+    beside = curve.project(wall)
     kept = max(beside.distance + 1.1 * missing, requirements.required)
-    heading = float(curve.heading(u))
-    return _Tight(u, np.array([np.cos(heading), np.sin(heading)]), wall, into, missing, kept)
+    heading = float(curve.heading(beside.u))
+    along = np.array([np.cos(heading), np.sin(heading)])
+    return _Tight(run[0] + float(beside.u), along, wall, into, missing, kept)
 
 
-def _gradient(world: World, place: Floats) -> Floats:
-    """The direction in which the distance grows, a unit vector (2,)."""
-    steps = place + GRADIENT_STEP_M * np.array([[1, 0], [-1, 0], [0, 1], [0, -1]])
+def _gap_and_inside(world: World, place: Floats) -> tuple[float, Floats]:
+    """The distance of a place (2,) from what is nearest [m], and a unit vector to there (2,)."""
+    steps = place + GRADIENT_STEP_M * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
     d = world.distance(steps)
-    slope = np.array([d[0] - d[1], d[2] - d[3]])
+    slope = np.array([d[2] - d[1], d[4] - d[3]])
     size = float(np.linalg.norm(slope))
-    return slope / size if size > 0.0 else np.array([1.0, 0.0])
+    return float(d[0]), slope / size if size > 0.0 else np.array([-1.0, 0.0])

@@ -22,10 +22,12 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import (
     CHAIN_SEGMENT_S,
     FIELD_CELL_S,
+    PASSAGES_S,
     POSES_EFFORT_S,
     TREE_S,
 )
 from viaspline.planning.turning.hybrid_astar.closed_gaps import closed_gaps
+from viaspline.planning.turning.hybrid_astar.narrow_places import Passage, passages
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
@@ -73,6 +75,7 @@ SEARCH_EFFORTS = (
     Effort(0.05, 0.7, (1 / 6, 1 / 3), 60_000),
     Effort(0.025, 0.4, (1 / 12, 1 / 6, 1 / 3), 120_000, (1.5, 0.25)),
 )
+FIRST_LOOK = 0.1  # of its states, that each effort looks at before any of them looks at all
 LEAST_SEARCH_RAMP = 0.08  # of the radius
 
 
@@ -145,6 +148,19 @@ class PoseProblem:
             SHARE_AFTER_ARRIVAL,
         )
 
+    def passages(self, start: Floats, goal: Goal) -> tuple[Passage, ...]:
+        """The narrow places on the shortest way from a place (2,) to a goal."""
+        window = self.search_window
+        ahead = self._ahead(np.array([goal.x, goal.y]))
+        body = (window.body.discs.tobytes(), window.barriers.tobytes())
+        asked = (window.world, window.area, window.side, *body, *start.tolist(), goal.x, goal.y)
+
+        def told() -> tuple[Passage, ...]:
+            self.requirements.spend(PASSAGES_S)
+            return passages(window, ahead, start)
+
+        return self.requirements.once(("passages", *asked), told)
+
     def _ahead(self, place: Floats) -> Ahead:
         """How far it is to a place (2,) from everywhere: the same from wherever a search begins."""
         window = self.search_window
@@ -156,6 +172,11 @@ class PoseProblem:
             return window.ahead(place[None])
 
         return self.requirements.once(("ahead", *asked), told)
+
+
+def first_looks(efforts: Sequence[Effort]) -> tuple[Effort, ...]:
+    """The efforts with few states each: where one sees no end, a finer one may find one at once."""
+    return tuple(replace(each, room=math.ceil(FIRST_LOOK * each.room)) for each in efforts)
 
 
 def prepare_body(requirements: Requirements) -> None:
@@ -189,17 +210,19 @@ def find_poses(
         A chain whose discs (see ``disc_cover``) are clear; or why there is none.
     """
     places = np.array([[start.x, start.y], [goal.x, goal.y]])
-    expanded, reason = 0, Reason.BUDGET
-    for effort in efforts:
+    expanded, reasons = 0, [Reason.BUDGET] * len(efforts)
+    for number, effort in (*enumerate(first_looks(efforts)), *enumerate(efforts)):
+        if reasons[number].is_proof:
+            continue
         for problem in pose_problems(world, requirements, rho, ramp, places, effort):
             found, is_cut = _one_way(problem, start, goal)
             expanded += found.expanded
             if isinstance(found, Chain):
                 return replace(found, expanded=expanded)
-            reason = found.reason
+            reasons[number] = found.reason
             if not is_cut:
                 break
-    return NotFound(reason, 0, expanded)
+    return NotFound(reasons[-1], 0, expanded)
 
 
 def pose_problems(

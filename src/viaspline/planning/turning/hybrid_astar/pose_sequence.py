@@ -1,31 +1,29 @@
-"""Ways through a row of places: the best heading at one of them may bar the way to the next.
+"""Ways through a row of places: as they are asked for, or led by narrow places between them.
 
-Tested through ``planning/turning/hybrid_astar/test_pose_search``.
+Tested through ``planning/turning/hybrid_astar/test_pose_search`` and
+``planning/turning/hybrid_astar/test_narrow_places``.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Hashable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import POSES_EFFORT_S, WorkBudget
+from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.planning.turning.hybrid_astar.narrow_places import Passage
 from viaspline.planning.turning.hybrid_astar.pose_search import (
-    HEADING_SECTORS,
     SEARCH_EFFORTS,
     Effort,
     PoseProblem,
-    finished,
-    headings_at,
+    first_looks,
     pose_problems,
-    turn_of,
 )
+from viaspline.planning.turning.hybrid_astar.row_layers import RowLeg, through
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
@@ -33,30 +31,9 @@ from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Pose,
     Reason,
 )
-from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree
 from viaspline.world.world import World
 
-MAX_ARRIVALS = 6  # that are followed on from every place, of different headings
-SHARE_AFTER_FIRST = 1.0  # of states, that is looked at after the first arrival; see ``SearchTree``
-DOUBT_STATES = 1000  # after which it is looked at whether the goal can be come to at all
-PROOF_SECTORS = 72  # headings that nothing may come with, for a place to be out of reach
-THINNED = 3  # of these, where a body stands with none of the usual ones, one in so many is tried
-SAME_HEADING_RAD = math.pi / HEADING_SECTORS  # nearer to each other than this, two are one
-
-
-@dataclass(frozen=True)
-class _Arrival:
-    """A pose at a place, and how it was come to.
-
-    Attributes:
-        pose: x, y, heading and length so far, (4,).
-        before: Number of the arrival at the place before.
-        segments: From there, (n, 3).
-    """
-
-    pose: Floats
-    before: int
-    segments: Floats
+Lead = Callable[[Sequence[Passage]], Sequence[Passage]]  # those of a leg that it is led by
 
 
 def find_row(
@@ -89,160 +66,86 @@ def find_row(
         there are none. From every place only the shortest arrivals with different headings are
         followed on; that there is no way is said only where those were all.
     """
-    ends = [(goal.x, goal.y) for goal in goals]
-    places = np.array([(starts[0].x, starts[0].y), *ends])
-    failed = NotFound(Reason.BUDGET)
-    expanded = 0
-    for effort in efforts:
-        problems = pose_problems(world, requirements, rho, ramp, places, effort)
+    row = _Row(world, requirements, rho, ramp, tuple(starts), tuple(goals), budget, tuple(barriers))
+    failed, expanded = [NotFound(Reason.BUDGET)] * len(efforts), 0
+    for number, effort, lead in _attempts(efforts):
+        if failed[number].reason.is_proof:
+            continue
+        found, seen = row.found(effort, lead)
+        if not isinstance(found, NotFound):
+            return found
+        expanded += seen
+        if lead is None:
+            failed[number] = found
+    return replace(failed[-1], expanded=expanded)
+
+
+def _attempts(efforts: Sequence[Effort]) -> Iterator[tuple[int, Effort, Lead | None]]:
+    """The efforts by number, and by which narrow places ways are led: few states at first."""
+    for each in enumerate(first_looks(efforts)):
+        yield from ((*each, lead) for lead in (None, _all_of_them, _the_narrowest))
+    yield from ((*each, None) for each in enumerate(efforts))
+
+
+def _all_of_them(narrow: Sequence[Passage]) -> Sequence[Passage]:
+    """Leads ways by all narrow places."""
+    return narrow
+
+
+def _the_narrowest(narrow: Sequence[Passage]) -> Sequence[Passage]:
+    """Leads ways by the narrowest place of each leg: round others there may be another way."""
+    return [] if len(narrow) < 2 else [min(narrow, key=lambda passage: passage.width)]
+
+
+@dataclass(frozen=True)
+class _Row:
+    """A row of places, see ``find_row``."""
+
+    world: World
+    requirements: Requirements
+    rho: float
+    ramp: float
+    starts: tuple[Pose, ...]
+    goals: tuple[Goal, ...]
+    budget: WorkBudget
+    barriers: tuple[Floats, ...]
+
+    def found(self, effort: Effort, lead: Lead | None) -> tuple[tuple[Chain, ...] | NotFound, int]:
+        """What there is with an effort in ever greater windows, and how many states were seen."""
+        world, rho, ramp, starts = self.world, self.rho, self.ramp, self.starts
+        lines = tuple(each.tobytes() for each in self.barriers)
+        found: tuple[Chain, ...] | NotFound = NotFound(Reason.BUDGET)
+        seen = 0
+        problems = pose_problems(world, self.requirements, rho, ramp, self._places, effort)
         for window, problem in enumerate(problems):
-            closed = [problem.closed_by(each) for each in barriers] or [problem] * len(goals)
-            lines = tuple(each.tobytes() for each in barriers)
-            asked = (world, rho, ramp, tuple(starts), tuple(goals), effort, window, lines)
-            found, is_cut = requirements.once(
-                ("poses", *asked), partial(_through, closed, starts, goals, budget, asked)
+            legs = self._legs(problem, lead)
+            if not legs:
+                continue
+            goals = tuple(leg.goal for leg in legs)
+            asked = (world, rho, ramp, starts, goals, effort, window, lines)
+            found, is_cut = self.requirements.once(
+                ("poses", *asked), partial(through, legs, starts, self.budget, asked)
             )
             if not isinstance(found, NotFound):
-                return found
-            expanded += found.expanded
-            failed = found
+                break
+            seen += found.expanded
             if not is_cut:
                 break
-    return NotFound(failed.reason, failed.goal, expanded)
+        return found, seen
 
+    @property
+    def _places(self) -> Floats:
+        """(n, 2) [m]."""
+        ends = [(goal.x, goal.y) for goal in self.goals]
+        return np.array([(self.starts[0].x, self.starts[0].y), *ends])
 
-def _through(
-    problems: Sequence[PoseProblem],
-    starts: Sequence[Pose],
-    goals: Sequence[Goal],
-    budget: WorkBudget,
-    asked: tuple[Hashable, ...],
-) -> tuple[tuple[Chain, ...] | NotFound, bool]:
-    """The chains in one window, or why there are none and whether a greater one may have some."""
-    has_room = problems[0].search_window.has_room
-    roomy = [pose for pose in starts if has_room(pose.x, pose.y, pose.heading)]
-    if not roomy:
-        return NotFound(Reason.START_TAKEN), False
-    if _is_shut_in(problems[-1], roomy[0], goals[-1], budget):
-        return NotFound(Reason.GOAL_SHUT_IN, len(goals) - 1), False
-    begins = [np.array([pose.x, pose.y, pose.heading, 0.0]) for pose in roomy]
-    layers = [[_Arrival(begin, -1, np.empty((0, 3))) for begin in begins]]
-    expanded, has_followed_all = 0, True
-    for number, (problem, goal) in enumerate(zip(problems, goals, strict=True)):
-        headings = headings_at(problem, goal)
-        if not len(headings):
-            headings = headings_at(problem, goal, PROOF_SECTORS)[::THINNED]
-        if not len(headings):
-            return NotFound(Reason.GOAL_TAKEN, number, expanded), False
-        to = headings if goal.headings else np.append(headings, math.nan)
-        begin = np.array([arrival.pose for arrival in layers[-1]])
-        tree = problem.requirements.taken_up(
-            (*asked, number), partial(problem.forwards, begin, goal, to, SHARE_AFTER_FIRST)
-        )
-        is_shut_in, seen = _grown(problem, tree, layers[-1][0].pose, goal, budget, (*asked, number))
-        expanded += seen
-        if is_shut_in:
-            return NotFound(Reason.GOAL_SHUT_IN, number, expanded), False
-        arrivals = []
-        for found in tree.arrivals():
-            before = layers[-1][found.start].pose[2]
-            heading = before + turn_of(found.segments)
-            pose = np.array([goal.x, goal.y, heading, found.cost])
-            arrivals.append(_Arrival(pose, found.start, found.segments))
-        is_cut = not problem.search_window.area.is_whole  # outside of it there may be a way round
-        if not arrivals:
-            reason = Reason.START_SHUT_IN if number == 0 else Reason.NO_WAY
-            if tree.state != EMPTY or is_cut or not has_followed_all:
-                reason = Reason.BUDGET
-            return NotFound(reason, number, expanded), tree.state == EMPTY and is_cut
-        distinct = _distinct(arrivals)
-        layers.append(distinct[:MAX_ARRIVALS])
-        has_seen_all = tree.state == EMPTY and not is_cut
-        has_followed_all &= has_seen_all and len(distinct) <= MAX_ARRIVALS
-    return _chains(problems, roomy, goals, layers, expanded), False
-
-
-def _is_shut_in(problem: PoseProblem, start: Pose, goal: Goal, budget: WorkBudget) -> bool:
-    """Whether a place with given headings is seen at once to be out of reach from anywhere."""
-    headings = headings_at(problem, goal)
-    if not goal.headings or not len(headings) or not problem.search_window.area.is_whole:
-        return False
-    back = problem.backwards(start, goal, headings)
-    if not budget.affords(POSES_EFFORT_S * back.effort):
-        return False
-    problem.go_on(back)
-    return back.state == EMPTY
-
-
-def _grown(
-    problem: PoseProblem,
-    tree: SearchTree,
-    start: Floats,
-    goal: Goal,
-    budget: WorkBudget,
-    asked: tuple[Hashable, ...],
-) -> tuple[bool, int]:
-    """Let a search grow to its end, and in doubt another one from its goal.
-
-    It ends earlier when the budget is spent.
-
-    Args:
-        problem: Where.
-        tree: The search.
-        start: The pose from which it begins, and the cost so far.
-        goal: Where it ends.
-        budget: What may be spent on poses.
-        asked: All that the searches depend on.
-
-    Returns:
-        Whether the goal can't be come to from anywhere, and how many states were looked at.
-    """
-    back: SearchTree | None = None
-    while not tree.is_over and budget.affords(POSES_EFFORT_S * tree.effort):
-        problem.go_on(tree)
-        if tree.has_arrived or tree.expanded < DOUBT_STATES:
-            continue
-        if back is None:
-            from_all = headings_at(problem, goal, PROOF_SECTORS)
-            back = problem.requirements.taken_up(
-                ("back", *asked),
-                partial(problem.backwards, Pose(*start[:3].tolist()), goal, from_all),
-            )
-        if not budget.affords(POSES_EFFORT_S * back.effort):
-            break
-        problem.go_on(back)
-        if back.state == EMPTY and problem.search_window.area.is_whole:
-            return True, tree.expanded + back.expanded
-    return False, tree.expanded + (0 if back is None else back.expanded)
-
-
-def _distinct(arrivals: Sequence[_Arrival]) -> list[_Arrival]:
-    """The best arrivals whose headings differ."""
-    kept: list[_Arrival] = []
-    for arrival in arrivals:
-        gaps = [math.remainder(arrival.pose[2] - other.pose[2], math.tau) for other in kept]
-        if all(abs(gap) >= SAME_HEADING_RAD for gap in gaps):
-            kept.append(arrival)
-    return kept
-
-
-def _chains(
-    problems: Sequence[PoseProblem],
-    starts: Sequence[Pose],
-    goals: Sequence[Goal],
-    layers: Sequence[list[_Arrival]],
-    expanded: int,
-) -> tuple[Chain, ...]:
-    """The legs of the shortest row."""
-    row = [layers[-1][0]]
-    for layer in layers[-2:0:-1]:
-        row.insert(0, layer[row[0].before])
-    start = starts[row[0].before]
-    chains: list[Chain] = []
-    for number, (arrival, goal) in enumerate(zip(row, goals, strict=True)):
-        free = number == len(goals) - 1 and not goal.headings
-        heading = math.nan if free else float(arrival.pose[2])
-        end = np.array([goal.x, goal.y, heading])
-        chains.append(finished(problems[number], start, end, arrival.segments, expanded))
-        start = chains[-1].end
-    return tuple(chains)
+    def _legs(self, problem: PoseProblem, lead: Lead | None) -> list[RowLeg]:
+        """The legs, led by narrow places; none where there is no such place."""
+        closed = [problem.closed_by(each) for each in self.barriers] or [problem] * len(self.goals)
+        legs = []
+        for number, (part, goal) in enumerate(zip(closed, self.goals, strict=True)):
+            narrow = () if lead is None else lead(part.passages(self._places[number], goal))
+            poses = [pose for passage in narrow for pose in (passage.enter, passage.leave)]
+            goals = (*(Goal(pose.x, pose.y, (pose.heading,)) for pose in poses), goal)
+            legs += [RowLeg(number, part, each) for each in goals]
+        return legs if lead is None or len(legs) > len(self.goals) else []
