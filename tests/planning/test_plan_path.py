@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -38,6 +40,24 @@ def lay(methods: Any, *route: Any, radius: float | None = 3.0, known: Any = ()) 
     })  # fmt: skip
     sequence, world = via_sequence_of(mission), vs.World.known(mission)
     return lay_path(sequence, world, Requirements.of(mission), methods)[0]
+
+
+def test_what_parts_come_to_is_kept_for_the_path_alone() -> None:
+    mission = vs.Mission.model_validate({
+        "world": {"known": [{"circle": {"center": [15, 0.5], "radius": 3}}]},
+        "robot": {"radius_m": 0.5},
+        "route": {"start": [0, 0], "goal": [30, 0]},
+    })  # fmt: skip
+    needs, world = Requirements.of(mission), vs.World.known(mission)
+    assert needs.parts is None
+    _, account = lay_path(via_sequence_of(mission), world, needs)
+    kept = account.passed[0].in_the_way.leg.requirements
+    assert kept == needs
+    assert kept.parts is not None
+    assert kept.parts.is_laid
+    assert not kept.parts.found
+    assert replace(kept, clearance=1.0).parts is None  # it depends on what is asked for
+    assert pickle.loads(pickle.dumps(kept)).parts.is_laid
 
 
 def test_a_robot_that_can_follow_any_curve_takes_the_spline() -> None:

@@ -50,14 +50,27 @@ def lay_path(
     if not requirements.is_free_disc:
         sequence = replace(sequence, tangents="continuous")
     requirements.spend(LAY_S)
-    asked = PathProblem.of(sequence, world, requirements)
+    kept = requirements.keeping_parts()
+    asked = PathProblem.of(sequence, world, kept)
     asked_methods = (
         methods_for(requirements, len(sequence.vias[0].at)) if methods is None else methods
     )
+    try:
+        return _laid_on_sides(asked, asked_methods)
+    finally:
+        if kept.parts is not None:
+            kept.parts.forget()
+
+
+def _laid_on_sides(
+    asked: PathProblem, asked_methods: Sequence[PathMethod]
+) -> tuple[SplinePath, Account]:
+    """The path, laid anew where it came near to something on the wrong side."""
+    world, required = asked.world, asked.requirements.required
     while True:
         spline_path, account = _laid(asked, asked_methods)
         near = [
-            tuple(sides.overlooked(spline_path.leg(k), world, requirements.required).tolist())
+            tuple(sides.overlooked(spline_path.leg(k), world, required).tolist())
             for k, sides in enumerate(asked.sides)
         ]
         if not any(near):
@@ -68,14 +81,15 @@ def lay_path(
 def _laid(asked: PathProblem, methods: Sequence[PathMethod]) -> tuple[SplinePath, Account]:
     """The path past what is known to be in its way."""
     world, requirements = asked.world, asked.requirements
-    cleared = ClearSpline().lay(asked)
+    is_spline = methods is SPLINE_METHODS
+    clear_spline = ClearSpline() if is_spline else ClearSpline(max_weighed=0)  # turns are weighed
+    cleared = clear_spline.lay(asked)
     problem = DrivenProblem(
         asked.sequence, world, requirements, asked.router, asked.overlooked, cleared=cleared
     )
     outcome = first_settled(methods, problem)
     if not isinstance(outcome, Found):
         raise unlaid(problem, outcome)
-    is_spline = methods is SPLINE_METHODS
     driven = None if is_spline else partial(as_driven, problem)
     return outcome.value, Account(outcome.value, world, requirements, cleared.passed, driven)
 

@@ -26,6 +26,7 @@ from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
+FEW_GROUPS = 4  # on a leg, up to which the ways on either side are always sought
 MAX_GROUPS_SOUGHT_WHOLE = 12  # on a leg, up to which other sides are sought along all of it
 CORNERS_AROUND_GROUP = 4  # before and after a group, between which its other side is sought else
 
@@ -54,6 +55,11 @@ class GroupsInTheWay:
     leg: LegSearch
     met: tuple[Group, ...]
     active: Flags
+
+    @property
+    def is_little(self) -> bool:
+        """See ``InTheWay``."""
+        return len(self.met) <= FEW_GROUPS
 
     @property
     def among_made(self) -> GroupsInTheWay:

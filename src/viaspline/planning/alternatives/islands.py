@@ -51,6 +51,11 @@ class IslandsInTheWay:
         return on_the_line(self.leg.world, *self.leg.ends, self.leg.requirements.required)
 
     @property
+    def is_little(self) -> bool:
+        """See ``InTheWay``."""
+        return False
+
+    @property
     def among_made(self) -> IslandsInTheWay:
         """See ``InTheWay``."""
         return replace(self, leg=replace(self.leg, router=self.leg.router.among_made))

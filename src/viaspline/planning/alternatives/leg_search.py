@@ -124,7 +124,7 @@ class LegSearch:
         ends = (start.tobytes(), goal.tobytes())
         how = self.router.required, self.router.methods
         asked = ("route", self.world, how, ends, closed.tobytes(), active.tobytes())
-        return self.requirements.once(asked, found)
+        return self.requirements.recalled(asked, found)
 
     def curve(self, taut_path: TautPath | None, active: Flags) -> Spline | None:
         """The spline along a taut path, or None where no slack makes it clear.

@@ -36,6 +36,11 @@ class InTheWay(Protocol):
         ...
 
     @property
+    def is_little(self) -> bool:
+        """Whether it is so little that the ways on the other sides are always sought."""
+        ...
+
+    @property
     def among_made(self) -> InTheWay:
         """This one, whose other ways are sought on no finer lattices than the leg's own was."""
         ...
@@ -68,9 +73,10 @@ class OtherWay:
 class PassedLeg:
     """A leg past what it meets.
 
-    Where little is in the way, the curves on the other sides are weighed at once, and the shortest
-    is taken. Where much is, the shortest taut path is taken whatever the other sides cost; they
-    are looked at when the ledger is read, or where what was laid along it loses much to its bends.
+    Where little is in the way, the curves on the other sides are weighed at once if it is a spline
+    that is driven, and the best is taken. Where much is, the shortest taut path is taken whatever
+    the other sides cost; they are looked at when the ledger is read, or where what was laid along
+    it loses much to its bends.
 
     Attributes:
         in_the_way: What the leg was led round.
@@ -122,13 +128,15 @@ class PassedLeg:
     def rivals(self) -> tuple[TautPath, ...]:
         """Taut paths on other sides of what is in the way; those along which splines fit, if known.
 
-        Among much else only the paths are sought: splines take their time there, and so do lattices
-        that are finer than the leg's own way took.
+        Only the paths are sought where other curves than splines are laid along them, and among
+        much else: splines take their time there, and so do lattices that are finer than the leg's
+        own way took.
         """
         if self.is_weighed:
             curves = self.comparison.curves
             return tuple(curve.taut_path for curve in curves if curve is not self.best)
-        return tuple(way.taut_path for way in self._near_ways if way.taut_path is not None)
+        ways = self.other_ways if self.in_the_way.is_little else self._near_ways
+        return tuple(way.taut_path for way in ways if way.taut_path is not None)
 
     @property
     def taken(self) -> Spline:

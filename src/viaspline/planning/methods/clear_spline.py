@@ -17,7 +17,7 @@ from viaspline.kernels.routing.narrow_gaps import narrow_places
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.alternatives.cleared_spline import ClearedSpline
 from viaspline.planning.alternatives.fit import tighten, untied
-from viaspline.planning.alternatives.groups import GroupsInTheWay, groups_met
+from viaspline.planning.alternatives.groups import FEW_GROUPS, GroupsInTheWay, groups_met
 from viaspline.planning.alternatives.islands import IslandsInTheWay
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline
 from viaspline.planning.alternatives.passed_leg import PassedLeg
@@ -33,7 +33,6 @@ from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.via_refusals import refuse_blocked_vias
 
 CURVE_SLACK_M = 1e-4  # room on either side that a curve may need beyond what is required
-MAX_GROUPS_WEIGHED = 4  # up to which the curves on either side are weighed at once
 
 
 @dataclass(frozen=True)
@@ -45,10 +44,12 @@ class ClearSpline:
     Attributes:
         max_rounds: Every round lowers slack, of spans that loop or of legs that are too close.
         max_closed_gaps: Gaps of a leg that are closed because no curve fits through them.
+        max_weighed: Groups in the way of a leg up to which the splines on either side are weighed.
     """
 
     max_rounds: int = 60
     max_closed_gaps: int = 200
+    max_weighed: int = FEW_GROUPS
 
     def lay(self, problem: PathProblem) -> ClearedSpline:
         """Lay it.
@@ -124,8 +125,9 @@ class ClearSpline:
         leg = replace(leg, sides=leg.sides.binding_if_met(active))
         if is_dense:
             return PassedLeg(IslandsInTheWay(leg), outcome.value, is_weighed=False), leg.sides
-        is_weighed = len(met) <= MAX_GROUPS_WEIGHED
-        return PassedLeg(GroupsInTheWay(leg, met, active), outcome.value, is_weighed), leg.sides
+        groups = GroupsInTheWay(leg, met, active)
+        is_weighed = len(met) <= self.max_weighed
+        return PassedLeg(groups, outcome.value, is_weighed), leg.sides
 
     def _fitted(self, leg: LegSearch, active: Flags) -> tuple[Outcome[Spline], Floats]:
         """The curve along the shortest taut path on which one fits, and the forbidden sides.

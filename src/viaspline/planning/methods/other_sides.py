@@ -82,7 +82,7 @@ def _other_rows(problem: DrivenProblem, row: TautRow, laid: SplinePath) -> Itera
     is_short = len(problem.bends.rows) <= MAX_SOUGHT_BENDS
     for leg, passed in problem.cleared.passed.items():
         is_shortest = row.taut_paths[leg] is problem.shortest_row.taut_paths[leg]
-        is_sought = passed.is_weighed or (is_short and problem.loses_much(laid, leg))
+        is_sought = passed.in_the_way.is_little or (is_short and problem.loses_much(laid, leg))
         if is_shortest and is_sought:
             for taut_path in passed.rivals:
                 yield row.with_leg(leg, taut_path)

@@ -15,6 +15,7 @@ from viaspline.mission.robot_parts import RobotSpec, TurnOnSpot
 from viaspline.mission.route_spec import Detours
 from viaspline.mission.spline_spec import SplineSpec, Tangents
 from viaspline.planning.problem.objective import Objective
+from viaspline.planning.problem.parts_found import PartsFound
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.work_budget import Progress, Value, WorkBudget
 from viaspline.presentable.compared_by_value import ComparedByValue
@@ -45,6 +46,8 @@ class Requirements(ComparedByValue):
         detours: Whether they keep to the line between via points; None: where that is long beside
             what stands in it.
         budget: What may be spent on looking for a path; None: as much as it takes.
+        parts: What parts have come to of the path that is laid with these; None: they aren't kept.
+            Other requirements that are made of these don't have them.
     """
 
     radius: float
@@ -60,6 +63,7 @@ class Requirements(ComparedByValue):
     objective: Objective = field(default_factory=lambda: Objective("time", Pace.of(RobotSpec())))
     detours: Detours | None = None
     budget: WorkBudget | None = None
+    parts: PartsFound | None = field(default=None, init=False, compare=False, repr=False)
 
     def spend(self, cost: float) -> None:
         """Take what the next step of a search costs off its budget [s of the reference machine].
@@ -80,6 +84,23 @@ class Requirements(ComparedByValue):
         if self.budget is None:
             return part()
         return self.budget.once((self.unbudgeted, asked), part)
+
+    def recalled(self, asked: Hashable, part: Callable[[], Value]) -> Value:
+        """What a small part comes to: without a budget as well it is kept while a path is laid.
+
+        Args:
+            asked: All that it depends on besides these requirements.
+            part: Does it.
+        """
+        if self.budget is None and self.parts is not None:
+            return self.parts.once(asked, part)
+        return self.once(asked, part)
+
+    def keeping_parts(self) -> Requirements:
+        """These for one path that is laid: what small parts of it come to is kept."""
+        kept = replace(self)
+        object.__setattr__(kept, "parts", PartsFound())
+        return kept
 
     def taken_up(self, asked: Hashable, begin: Callable[[], Progress]) -> Progress:
         """A part of a search that is stopped and goes on; see ``WorkBudget``.

@@ -75,7 +75,7 @@ class Bends:
         """These bends with other least radii of their turns: one [m], or one for each, (n,)."""
         rows = self.rows.copy()
         rows[:, RADIUS] = radii
-        return replace(self, rows=rows)
+        return Bends(rows, self.vias, self.swings, self.closed)
 
     def widened(self, k: int, by: float) -> Bends:
         """These bends with more room kept from what detour bend k goes round [m]."""

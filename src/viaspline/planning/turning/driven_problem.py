@@ -112,7 +112,10 @@ class DrivenProblem(TurningProblem):
             return True
         bends, stands = bends_of_legs(self.sequence, legs), tuple(leg.stands for leg in self.legs)
         asked = ("ideal time", self.sharpest, bends.key, stands)
-        return self.requirements.once(asked, partial(self.ideal_time, self.sequence, bends)) < bound
+        return (
+            self.requirements.recalled(asked, partial(self.ideal_time, self.sequence, bends))
+            < bound
+        )
 
 
 @dataclass(frozen=True)

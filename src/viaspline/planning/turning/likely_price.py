@@ -41,13 +41,15 @@ class LikelyPrice(DrivenPrice):
         least = super().least(row)
         if not self.problem.requirements.objective.is_time:
             return least
+        shortest_paths = self.problem.shortest_row.taut_paths
+        others = [k for k, way in enumerate(row.taut_paths) if way is not shortest_paths[k]]
+        if not all(map(self._is_told, others)):
+            return least
         told = self.problem.cost(self.laid)
-        for leg, taut_path in enumerate(row.taut_paths):
-            shortest = self.problem.shortest_row.taut_paths[leg]
-            if taut_path is shortest:
-                continue
-            now, then = (self._with_least_turns(leg, way) for way in (shortest, taut_path))
-            if not self._is_told(leg) or now is None or then is None:
+        for leg in others:
+            ways = shortest_paths[leg], row.taut_paths[leg]
+            now, then = (self._with_least_turns(leg, way) for way in ways)
+            if now is None or then is None:
                 return least
             told += self._laid_time(leg) * (then / (UNSURE * now) - 1.0)
         return max(least, told)
@@ -55,7 +57,7 @@ class LikelyPrice(DrivenPrice):
     def _is_told(self, leg: int) -> bool:
         """Whether there is much else about a leg: what little there is costs little to lay."""
         passed = self.problem.cleared.passed
-        return leg in passed and not passed[leg].is_weighed
+        return leg in passed and not passed[leg].in_the_way.is_little
 
     def _laid_time(self, leg: int) -> float:
         """How long a leg takes as it is laid [s]."""
@@ -66,7 +68,7 @@ class LikelyPrice(DrivenPrice):
         """How long a way takes with the least turns [s]; None where they have no room."""
         ask = partial(self._told_by_least_turns, leg, taut_path)
         places = taut_path.corners.tobytes(), taut_path.bends.tobytes()
-        return self.problem.requirements.once(
+        return self.problem.requirements.recalled(
             ("least turns", leg, self.problem.sharpest, places), ask
         )
 

@@ -25,7 +25,7 @@ from viaspline.planning.turning.bend_row import KEPT, SIDE, LegBends, X, Y, bend
 from viaspline.planning.turning.lane import Lane
 from viaspline.planning.turning.lane_stays import OFF_LANE, LegLane, Stay
 from viaspline.planning.turning.lane_turns import LaneTurns, turn_aside
-from viaspline.planning.turning.wide_turns import swing_share
+from viaspline.planning.turning.swing_share import swing_share
 
 LANE_REACHES = (1.0, 1.6)  # how long turns off and onto a lane are made, over what they need
 END_SWING = 0.35  # of a turn at an end of a lane, in required distances

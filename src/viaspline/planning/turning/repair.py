@@ -105,7 +105,9 @@ def clear_turn_path_or_why(
 
 def _as_laid(bends: Bends, ramp: float, requirements: Requirements) -> TurnPath | NoTurnPath:
     """See ``_laid``."""
-    return requirements.once(("laid", bends.key, ramp), partial(_laid, bends, ramp, requirements))
+    return requirements.recalled(
+        ("laid", bends.key, ramp), partial(_laid, bends, ramp, requirements)
+    )
 
 
 def _length(laid: TurnPath | NoTurnPath) -> float:
@@ -117,7 +119,7 @@ def _once_pushed(
     laid: TurnPath | NoTurnPath, world: World, requirements: Requirements, ramp: float
 ) -> TurnPath | Stuck:
     """See ``_pushed_clear``."""
-    return requirements.once(
+    return requirements.recalled(
         ("pushed clear", laid.bends.key, ramp, world),
         partial(_pushed_clear, laid, world, requirements, ramp),
     )
@@ -125,7 +127,7 @@ def _once_pushed(
 
 def turn_path_if_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
     """The shortest turn path to any sides of given headings, if it is clear as it is."""
-    return requirements.once(
+    return requirements.recalled(
         ("as it is", bends.key, world), partial(_if_clear, bends, world, requirements)
     )
 

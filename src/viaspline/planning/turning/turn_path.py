@@ -98,7 +98,7 @@ def turn_path_round(bends: Bends) -> TurnPath | NoTurnPath:
         if best is None or length < least:
             best, least = found, length
     assert best is not None  # there is always one choice of sides
-    return best if isinstance(best, NoTurnPath) else _laid(best, least)
+    return best if isinstance(best, NoTurnPath) else _so_long(best, least)
 
 
 def turn_path_on_sides(bends: Bends, ramp: float = RAMP) -> TurnPath | NoTurnPath:
@@ -109,7 +109,7 @@ def turn_path_on_sides(bends: Bends, ramp: float = RAMP) -> TurnPath | NoTurnPat
         ramp: Length of the ramps, in radii.
     """
     found = settled_turns(bends, ramp)
-    return found if isinstance(found, NoTurnPath) else _laid(found, _length(found))
+    return found if isinstance(found, NoTurnPath) else laid_turns(found)
 
 
 def _length(settled: SettledTurns) -> float:
@@ -118,7 +118,12 @@ def _length(settled: SettledTurns) -> float:
     return float(turn_sequence_length(bends.rows, bends.closed, *settled.lines_and_turns))
 
 
-def _laid(settled: SettledTurns, length: float) -> TurnPath:
+def laid_turns(settled: SettledTurns) -> TurnPath:
+    """Lines and turns as a curve."""
+    return _so_long(settled, _length(settled))
+
+
+def _so_long(settled: SettledTurns, length: float) -> TurnPath:
     """Lines and turns as a curve that is so long [m]."""
     bends = settled.bends
     spans, begins = turn_sequence_spans(bends.rows, bends.closed, *settled.lines_and_turns)

@@ -170,8 +170,17 @@ class TurningProblem(PathProblem):
         objective = self.requirements.objective
         if not objective.is_time:
             return spline_path.length
-        rests = spline_path.rests(self.sequence)
-        return driving_time(spline_path.spans, objective.pace, rests)
+        known = self._times.get(id(spline_path))
+        if known is None:
+            rests = spline_path.rests(self.sequence)
+            known = spline_path, driving_time(spline_path.spans, objective.pace, rests)
+            self._times[id(spline_path)] = known
+        return known[1]
+
+    @cached_property
+    def _times(self) -> dict[int, tuple[SplinePath, float]]:
+        """Paths that were timed, by their ids, with their times [s]: most are compared often."""
+        return {}
 
     def loses_much(self, spline_path: SplinePath, leg: int) -> bool:
         """Whether a leg takes much longer than a straight line as long as its shortest taut path.

@@ -33,10 +33,12 @@ from viaspline.planning.turning.joined_bends import (
     with_joins,
 )
 from viaspline.planning.turning.repair import clear_turn_path
+from viaspline.planning.turning.swing_share import swing_share
 from viaspline.planning.turning.turn_path import (
     NoTurnPath,
     SettledTurns,
     TurnPath,
+    laid_turns,
     settled_turns,
     turn_path_on_sides,
 )
@@ -85,7 +87,7 @@ class WideTurns:
         What came of it is kept.
         """
         lay = partial(self._narrowed, bends, world, requirements)
-        return requirements.once(("wide", self, bends.key, world), lay)
+        return requirements.recalled(("wide", self, bends.key, world), lay)
 
     def _narrowed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
         """The widest turns to the sides that are set, narrowed until they are clear.
@@ -107,7 +109,7 @@ class WideTurns:
             looser = tuple(loosened(joins, set(tight)))
             joins = looser if looser != joins else ()
         radii = self._wished(bends, narrowest, wishes)
-        found = self._fitted(bends, radii, world, requirements)
+        found = self._fitted(bends, radii, narrowest, world, requirements)
         return found if isinstance(found, TurnPath) else None
 
     def _joined(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | Ints:
@@ -117,17 +119,22 @@ class WideTurns:
         if isinstance(narrowest, NoTurnPath):
             return np.arange(len(bends.rows))
         radii = self._wished(bends, narrowest, self._wishes(narrowest))
-        return self._fitted(bends, radii, world, requirements)
+        return self._fitted(bends, radii, narrowest, world, requirements)
 
     def _fitted(
-        self, bends: Bends, radii: Floats, world: World, requirements: Requirements
-    ) -> TurnPath | Ints:
+        self, bends: Bends, radii: Floats, narrowest: SettledTurns, world: World,
+        requirements: Requirements,
+    ) -> TurnPath | Ints:  # fmt: skip
         """Turns round a row, narrowed from radii (n,) [m] until they are clear.
 
         Where the least have no room, these are the bends before, after and between them, (k,).
         That is tried first: where they don't fit, wider ones needn't be narrowed to them.
         """
-        _, tight, _ = _tried(bends, np.minimum(radii, self.least), world, requirements)
+        if (radii < self.least).any():
+            _, tight, _ = _tried(bends, np.minimum(radii, self.least), world, requirements)
+        else:
+            requirements.spend(_turn_path_cost(bends))
+            _, tight, _ = _judged(narrowest, len(radii), world, requirements)
         for _ in range(MAX_NARROWINGS if not tight else 0):
             turn_path, tight, swings = _tried(bends, radii, world, requirements)
             if turn_path is not None:
@@ -200,16 +207,29 @@ def _tried(
         The path; the bends before and after each tight place, if it isn't clear or there is none;
         how far each turn swings out, (n,).
     """
-    requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
-    turn_path = turn_path_on_sides(bends.turning(radii))
-    if isinstance(turn_path, NoTurnPath):
-        return None, _pairs(turn_path.left, turn_path.lines), radii
-    swings = np.zeros(len(radii))
+    requirements.spend(_turn_path_cost(bends))
+    settled = settled_turns(bends.turning(radii))
+    if isinstance(settled, NoTurnPath):
+        return None, _pairs(settled.left, settled.lines), radii
+    return _judged(settled, len(radii), world, requirements)
+
+
+def _judged(
+    settled: SettledTurns, count: int, world: World, requirements: Requirements
+) -> tuple[TurnPath | None, list[Ints], Floats]:
+    """What ``_tried`` tells, of turns whose lines are known round a row of so many bends."""
+    turn_path = laid_turns(settled)
+    swings = np.zeros(count)
     swings[turn_path.left] = _swings(turn_path)
     close = body_conflicts(world, turn_path.spans, requirements)
     if (close == CLEAR).all():
         return turn_path, [], swings
     return None, _pairs_between(turn_path, turn_path.left, np.flatnonzero(close != CLEAR)), swings
+
+
+def _turn_path_cost(bends: Bends) -> float:
+    """What turns round a row cost [s of the reference machine]."""
+    return TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows)
 
 
 def _wound_round(turn_path: TurnPath) -> Ints:
@@ -218,20 +238,6 @@ def _wound_round(turn_path: TurnPath) -> Ints:
     So it does round a circle that its ends lie too near to: its lines touch it in the wrong order.
     """
     found: Ints = turn_path.left[np.abs(turn_path.turns) > np.pi]
-    return found
-
-
-def swing_share(turns: Floats) -> Floats:
-    """How far turns swing out from where their lines meet, over their radius, (n,).
-
-    With ramps as long as the radius, turns by less than 1 rad are ramps alone.
-
-    Args:
-        turns: By how much they turn [rad], (n,).
-    """
-    theta = np.abs(turns)
-    with_arc = 1.0 - np.cos(0.5 * theta) + 1.0 / 24.0
-    found: Floats = np.where(theta < 1.0, theta / 6.0, with_arc)
     return found
 
 
