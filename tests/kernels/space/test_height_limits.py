@@ -1,12 +1,23 @@
 import numpy as np
 
-from viaspline.kernels.space.height_limits import height_ranges
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import kernel
+from viaspline.kernels.space.height_limits import heights_allowed
+from viaspline.kernels.space.packed_space import PackedSpace
 from viaspline.maps.terrain import Terrain
 from viaspline.world.space.height_band import HeightBand
 from viaspline.world.space.spatial_world import SpatialWorld
 
 SLOPE = Terrain([[0.0, 10.0], [0.0, 10.0]], cell=10.0)
 PLACES = np.array([[0.0, 5.0], [5.0, 5.0], [10.0, 5.0], [12.0, 5.0]])
+
+
+@kernel
+def height_ranges(space: PackedSpace, places: Floats) -> Floats:
+    found = np.empty((places.shape[0], 2))
+    for k in range(places.shape[0]):
+        found[k, 0], found[k, 1] = heights_allowed(space, places[k, 0], places[k, 1])
+    return found
 
 
 def test_limits_above_ground_follow_it_inside_of_those_of_height() -> None:

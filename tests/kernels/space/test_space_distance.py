@@ -7,7 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from viaspline.kernels.space.space_distance import space_distances, space_segments
+from viaspline.kernels.jit import kernel
+from viaspline.kernels.space.packed_space import PackedSpace
+from viaspline.kernels.space.space_distance import space_distances, space_segment
 from viaspline.maps.terrain import Terrain
 from viaspline.maps.voxels import Voxels
 from viaspline.mission.shapes.rounded_ring import RoundedRing
@@ -24,6 +26,19 @@ HOUSE = Prism(
          [(2.0, 2.0), (2.0, 6.0), (6.0, 6.0), (6.0, 2.0)]]
     ), 0.0, 10.0,
 )  # fmt: skip
+
+
+@kernel
+def space_segments(
+    space: PackedSpace, chords: Floats, limit: float
+) -> tuple[Floats, NDArray[np.int64]]:
+    count = chords.shape[0]
+    distance = np.empty(count)
+    index = np.empty(count, np.int64)
+    for k in range(count):
+        c = chords[k]
+        distance[k], index[k] = space_segment(space, c[0], c[1], c[2], c[3], c[4], c[5], limit)
+    return distance, index
 
 
 def world_of(made: dict[str, Any]) -> SpatialWorld:

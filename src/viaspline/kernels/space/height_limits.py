@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import kernel, uncounted
+from viaspline.kernels.jit import uncounted
 from viaspline.kernels.space.ground_pyramid import ground_height
 from viaspline.kernels.space.packed_space import PackedSpace
 
@@ -28,12 +27,3 @@ def heights_allowed(space: PackedSpace, x: float, y: float) -> tuple[float, floa
             return np.inf, -np.inf
         return low, high
     return max(low, ground + limits[2]), min(high, ground + limits[3])
-
-
-@kernel
-def height_ranges(space: PackedSpace, places: Floats) -> Floats:
-    """Least and greatest heights over places (n, 2) [m], (n, 2); see ``heights_allowed``."""
-    found = np.empty((places.shape[0], 2))
-    for k in range(places.shape[0]):
-        found[k, 0], found[k, 1] = heights_allowed(space, places[k, 0], places[k, 1])
-    return found

@@ -178,15 +178,3 @@ def space_distances(space: PackedSpace, places: Floats) -> tuple[Floats, Ints]:
             space, places[k, 0], places[k, 1], places[k, 2], math.inf
         )
     return distance, index
-
-
-@kernel
-def space_segments(space: PackedSpace, chords: Floats, limit: float) -> tuple[Floats, Ints]:
-    """Distance and index of what is nearest, for chords (n, 6)."""
-    count = chords.shape[0]
-    distance = np.empty(count)
-    index = np.empty(count, np.int64)
-    for k in range(count):
-        c = chords[k]
-        distance[k], index[k] = space_segment(space, c[0], c[1], c[2], c[3], c[4], c[5], limit)
-    return distance, index

@@ -79,25 +79,3 @@ def is_blocked(space: PackedSpace, g: int, i: int, j: int, k: int) -> bool:
         return False
     word = space.voxel_words[level[3] + x + level[0] * (y + level[1] * z)]
     return (word >> bit_of(i, j, k)) & 1 == 1
-
-
-@uncounted
-def free_level(space: PackedSpace, g: int, i: int, j: int, k: int) -> int:
-    """The coarsest level on which all that shares a cell with cube (i, j, k) is free.
-
-    Returns:
-        -1 where the cube itself is blocked; 0 where it alone is known to be free; l where all the
-        4^l cubes aside of its cell are.
-    """
-    if is_blocked(space, g, i, j, k):
-        return -1
-    found = 0
-    for number in range(space.voxel_starts[g], space.voxel_starts[g + 1]):
-        level = space.voxel_levels[number]
-        i, j, k = i >> 2, j >> 2, k >> 2
-        if not (0 <= i < level[0] and 0 <= j < level[1] and 0 <= k < level[2]):
-            return found
-        if space.voxel_words[level[3] + i + level[0] * (j + level[1] * k)] != 0:
-            return found
-        found += 1
-    return found

@@ -7,8 +7,12 @@ from scipy.optimize import minimize_scalar
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import kernel
-from viaspline.kernels.space.routing.voxel_block import voxel_block
-from viaspline.kernels.space.routing.voxel_segment import cube_on_segment, voxels_allow
+from viaspline.kernels.space.routing.voxel_block import VoxelBlock, voxel_block
+from viaspline.kernels.space.routing.voxel_segment import (
+    cube_on_segment,
+    keeps_limits,
+    segment_is_free,
+)
 
 coordinates = st.floats(-4.0, 5.0)
 places = st.tuples(coordinates, coordinates, coordinates)
@@ -18,6 +22,25 @@ SIDE = 12
 @kernel
 def nearest_on(p: Floats, d: Floats) -> tuple[float, float]:
     return cube_on_segment(p[0], p[1], p[2], d[0], d[1], d[2], 0.0, 1.0)
+
+
+@kernel
+def voxels_allow(block: VoxelBlock, first: Floats, last: Floats, radius: float) -> bool:
+    if not keeps_limits(block, first[0], first[1], first[2]):
+        return False
+    if not keeps_limits(block, last[0], last[1], last[2]):
+        return False
+    size = 1.0 / block.frame[3]
+    return segment_is_free(
+        block,
+        (first[0] - block.frame[0]) * size,
+        (first[1] - block.frame[1]) * size,
+        (first[2] - block.frame[2]) * size,
+        (last[0] - first[0]) * size,
+        (last[1] - first[1]) * size,
+        (last[2] - first[2]) * size,
+        radius * size,
+    )
 
 
 def gap(place: Floats) -> float:

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import math
 
-from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inlined, inner, kernel
+from viaspline.kernels.jit import inlined, inner
 from viaspline.kernels.space.routing.voxel_block import VoxelBlock, is_blocked
 
 _STEPS = 60
@@ -191,33 +190,6 @@ def segment_is_free(
             return False
         t = until
     return True
-
-
-@kernel
-def voxels_allow(block: VoxelBlock, first: Floats, last: Floats, radius: float) -> bool:
-    """Whether a ball can go straight from one place to another.
-
-    Args:
-        block: Cubes, and limits of places.
-        first: [m], (3,).
-        last: [m], (3,).
-        radius: Of the ball [m].
-    """
-    if not keeps_limits(block, first[0], first[1], first[2]):
-        return False
-    if not keeps_limits(block, last[0], last[1], last[2]):
-        return False
-    size = 1.0 / block.frame[3]
-    return segment_is_free(
-        block,
-        (first[0] - block.frame[0]) * size,
-        (first[1] - block.frame[1]) * size,
-        (first[2] - block.frame[2]) * size,
-        (last[0] - first[0]) * size,
-        (last[1] - first[1]) * size,
-        (last[2] - first[2]) * size,
-        radius * size,
-    )
 
 
 @inner
