@@ -22,8 +22,9 @@ FIRST, LEAST_OVER = 0.1, 0.5  # of that at which what was laid would be a strip;
 STEPPED = 10.0  # at most, of the tension from one that is tried to the next, where that is foretold
 LOOSENED = 4.0  # where it isn't
 NEAR_TENSION = 1.5  # of one that is too loose, at which the least that isn't is near enough
-MOSTLY_SPENT = 0.7  # of what may be: enough of it
-WANTED = 0.85  # the same, where the tension that spends so much is foretold
+MOSTLY_SPENT, NEARLY_SPENT = 0.7, 0.8  # of what may be: enough of it
+WANTED, FORETOLD = 0.85, 0.93  # the same, that is aimed at
+LEAST_SPENT = 0.05  # the same, from which on a power of the tension tells
 
 
 @dataclass(frozen=True)
@@ -115,6 +116,14 @@ class TensionSearch:
         best = min([self.price.time, *(one.time for one in self._gentler)])
         return self.price.least if best <= (1.0 + GENTLE_SHARE) * self.price.least else best
 
+    @property
+    def _is_late(self) -> bool:
+        """Whether none is known that is nearly as soon as the least: it slows down for corners.
+
+        Where it doesn't, what is spent falls by the root of the tension.
+        """
+        return self._known > self.price.least
+
     def _spent(self, one: Tried) -> float:
         """Of what may be."""
         return (one.time / self._known - 1.0) / GENTLE_SHARE
@@ -123,8 +132,7 @@ class TensionSearch:
     def _may_be_sooner_tense(self) -> bool:
         """Whether a tenser one may be sooner by much: a looser one is later by much."""
         gentler = self._gentler
-        is_late = self._known > self.price.least
-        if len(gentler) < 2 or not is_late or self._spent(gentler[-2]) <= 1.0:
+        if len(gentler) < 2 or not self._is_late or self._spent(gentler[-2]) <= 1.0:
             return False
         looser, tensest = gentler[-2:]
         steps = math.log(LOOSENED) / math.log(tensest.tension / looser.tension)
@@ -141,12 +149,13 @@ class TensionSearch:
             is_near = between < NEAR_TENSION
             return None if is_near else (tensest.strip, tensest.tension * math.sqrt(between))
         over = (tensest.time / self.price.least - 1.0) / GENTLE_SHARE
-        return tensest.strip, tensest.tension * min(max(over * over, LOOSENED), STEPPED)
+        step = max(over**2, LOOSENED) if self._is_late else (over / FORETOLD) ** 2
+        return tensest.strip, tensest.tension * min(step, STEPPED)
 
     def _looser(self, chosen: Tried) -> tuple[TenseStrip, float] | None:
         """Between what is chosen and what is too loose, or looser yet if that saves bending."""
         spent = self._spent(chosen)
-        if spent > MOSTLY_SPENT:
+        if spent > (MOSTLY_SPENT if self._is_late else NEARLY_SPENT):
             return None
         looser = [one for one in self.tried if one.tension < chosen.tension]
         if looser:
@@ -156,14 +165,21 @@ class TensionSearch:
         tenser = [one for one in self._gentler if one.tension > chosen.tension]
         if tenser and _saves_little(tenser[0], chosen):
             return None
-        is_late = self._known > self.price.least
-        step = LOOSENED if is_late else min(1.0 / max(spent, 1e-6) ** 2, STEPPED)
+        step = LOOSENED if self._is_late else min((FORETOLD / max(spent, 1e-6)) ** 2, STEPPED)
         return chosen.strip, chosen.tension / step
 
     def _between(self, looser: Tried, chosen: Tried) -> float:
-        """The tension at which as much is spent as is wanted, as what is spent falls by its log."""
+        """The tension at which as much is spent as is wanted, as what is spent falls by its log.
+
+        Or by a power of it, where the robot doesn't slow down for corners.
+        """
         most, least = self._spent(looser), self._spent(chosen)
-        share = min(max((WANTED - least) / (most - least), 0.0), 1.0)
+        if self._is_late:
+            share = (WANTED - least) / (most - least)
+        else:
+            least = max(least, LEAST_SPENT)
+            share = math.log(FORETOLD / least) / math.log(most / least)
+        share = min(max(share, 0.0), 1.0)
         tension = chosen.tension * math.pow(looser.tension / chosen.tension, share)
         apart = math.sqrt(NEAR_TENSION)
         return min(max(tension, apart * looser.tension), chosen.tension / apart)
