@@ -161,11 +161,14 @@ def _search(
                 continue
             if k > 1 and not supports(corners, k, dx, dy):
                 continue
+            ahead = price + math.hypot(gx - corners[k, X], gy - corners[k, Y])
+            if k > 1 and ahead >= cost[1]:
+                continue  # the goal comes before it
             if not is_clear(world, members, barriers, x, y, x + dx, y + dy, floor):
                 continue
             cost[k] = price
             before[k] = here
-            rank[k] = price + math.hypot(gx - corners[k, X], gy - corners[k, Y])
+            rank[k] = ahead
 
 
 @kernel
