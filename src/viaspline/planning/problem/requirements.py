@@ -97,7 +97,12 @@ class Requirements(ComparedByValue):
         return self.once(asked, part)
 
     def keeping_parts(self) -> Requirements:
-        """These for one path that is laid: what small parts of it come to is kept."""
+        """These for one path that is laid: what small parts of it come to is kept.
+
+        A budget keeps what its parts come to by itself.
+        """
+        if self.budget is not None:
+            return self
         kept = replace(self)
         object.__setattr__(kept, "parts", PartsFound())
         return kept
