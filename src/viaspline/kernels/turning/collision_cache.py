@@ -29,6 +29,7 @@ AHEAD, LEFT, KEPT, SPEED = range(4)
 FROM, TO, LENGTH = range(3)
 # what is counted of distances
 RECKONED, LOOKED_UP = range(2)
+LOOK_UPS = 5  # of distances in tables take as long as one that is reckoned
 
 
 class CollisionCache(NamedTuple):
@@ -54,6 +55,18 @@ class CollisionCache(NamedTuple):
     discs: Floats
     barriers: Floats
     reckoned: Ints
+
+    def copied(self) -> CollisionCache:
+        """As far as its tables are filled: it and this one are filled each by itself."""
+        return self._replace(
+            known=self.known.copy(), coarse=self.coarse.copy(), reckoned=self.reckoned.copy()
+        )
+
+
+@inner
+def looked_at(cache: CollisionCache) -> int:
+    """How many distances were reckoned so far, and looked up in what takes as long."""
+    return cache.reckoned[RECKONED] + cache.reckoned[LOOKED_UP] // LOOK_UPS
 
 
 @inner
@@ -177,6 +190,7 @@ def _is_blocked_along(
             px, py, to = x + c * dx - s * dy, y + s * dx + c * dy, heading + turn
             px += disc[AHEAD] * math.cos(to) - disc[LEFT] * math.sin(to)
             py += disc[AHEAD] * math.sin(to) + disc[LEFT] * math.cos(to)
+            cache.reckoned[LOOKED_UP] += 1
             value, gap = _middle_distance(cache, cache.coarse, wide, px, py)
             if value + gap < disc[KEPT]:
                 return True

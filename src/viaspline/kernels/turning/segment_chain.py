@@ -6,19 +6,44 @@ Tested through ``planning/turning/hybrid_astar/test_pose_search``.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.clothoid import MAX_SPAN_TURN_RAD, spans_between
-from viaspline.kernels.turning.collision_cache import FROM, LENGTH, TO, CollisionCache, is_clear
+from viaspline.kernels.turning.collision_cache import (
+    FROM,
+    LENGTH,
+    TO,
+    CollisionCache,
+    is_clear,
+    looked_at,
+)
 from viaspline.kernels.turning.connect import MAX_SEGMENTS, connection
 from viaspline.kernels.turning.curvature_ramp import along_bend
 
 CURVATURE_TOLERANCE = 1e-9  # relative to the curvature, or its change, of the turning circle
 MIN_LINE_M = 1e-3  # line that is laid by itself [m]
 MIN_SHORTCUT_M = 1e-4  # by which a shortcut has to be shorter [m]
+TO_STATE, FROM_STATE = range(2)  # of a pair of states
+
+
+class Shortcuts(NamedTuple):
+    """The best shortcuts between states along a chain, as far as they were looked for.
+
+    Attributes:
+        costs: Length of the best way to each state [m], (k,).
+        before: The state that it comes from, (k,).
+        sides: To which sides its two turns go; 0 where it is the chain itself, (k, 2).
+        cursor: The pair of states that comes next, (2,): see ``TO_STATE``.
+    """
+
+    costs: Floats
+    before: Ints
+    sides: Floats
+    cursor: Ints
 
 
 @kernel
@@ -95,53 +120,88 @@ def _stations(start: Floats, goal: Floats, parts: Floats, poses: Floats, begins:
 
 
 @kernel
-def shortened(
-    cache: CollisionCache, start: Floats, goal: Floats, segments: Floats, rho: float, ramp: float,
-    spacing: float,
-) -> Floats:  # fmt: skip
-    """Replace parts of a chain by turn, line, turn where that is shorter and clear.
+def shortcut_states(
+    start: Floats, goal: Floats, segments: Floats, spacing: float
+) -> tuple[Floats, Floats, Ints]:
+    """States without curvature along a chain, between which shortcuts are tried.
+
+    Args:
+        start: x, y, heading, (3,).
+        goal: The same; a heading of NaN is free, (3,).
+        segments: See ``collision_cache``, (n, 3).
+        spacing: Between the states on a line, at most [m].
+
+    Returns:
+        (the chain in parts, (m, 3); x, y, heading and the length so far of each state, (k, 4); the
+        part with which each begins, (k,)).
+    """
+    parts = _divided(segments, spacing)
+    poses, begins = np.empty((parts.shape[0] + 1, 4)), np.empty(parts.shape[0] + 1, np.int64)
+    count = _stations(start, goal, parts, poses, begins)
+    return parts, poses[:count].copy(), begins[:count].copy()
+
+
+@kernel
+def look_for_shortcuts(
+    cache: CollisionCache, goal: Floats, poses: Floats, found: Shortcuts, rho: float, ramp: float,
+    effort: int,
+) -> None:  # fmt: skip
+    """Replace parts of a chain by turn, line, turn where that is shorter and clear, as far as goes.
 
     The best row of such shortcuts between states without curvature: dynamic programming.
 
     Args:
         cache: Ground.
-        start: x, y, heading, (3,).
-        goal: The same; a heading of NaN is free, (3,).
-        segments: See ``cache``, (n, 3).
+        goal: See ``shortcut_states``.
+        poses: The states.
+        found: What is found, written in place; it is over when ``cursor[TO_STATE]`` is past the
+            last state.
         rho: The least radius [m].
         ramp: Length of the ramps [m].
-        spacing: Between the states on a line, at most [m].
-
-    Returns:
-        The new segments, (k, 3).
+        effort: How many distances are reckoned and connections tried, about: it ends with the pair
+            of states in which that becomes more.
     """
-    parts = _divided(segments, spacing)
-    poses, begins = np.empty((parts.shape[0] + 1, 4)), np.empty(parts.shape[0] + 1, np.int64)
-    count = _stations(start, goal, parts, poses, begins)
-    costs, before = np.zeros(count), np.zeros(count, np.int64)
-    sides = np.zeros((count, 2))
+    costs, count = found.costs, poses.shape[0]
     trial = np.empty((MAX_SEGMENTS, 3))
-    for j in range(1, count):
-        costs[j] = costs[j - 1] + poses[j, 3] - poses[j - 1, 3]
-        before[j] = j - 1
+    last, tried = looked_at(cache) + effort, 0
+    j, i = found.cursor[TO_STATE], found.cursor[FROM_STATE]
+    while j < count:
+        if i == 0:
+            costs[j] = costs[j - 1] + poses[j, 3] - poses[j - 1, 3]
+            found.before[j] = j - 1
         heading = goal[2] if j == count - 1 else poses[j, 2]
-        for i in range(j):
+        while i < j and looked_at(cache) + tried < last:
             dx, dy = poses[j, 0] - poses[i, 0], poses[j, 1] - poses[i, 1]
             if costs[i] + math.hypot(dx, dy) >= costs[j] - MIN_SHORTCUT_M:
+                i += 1
                 continue
             for s1 in (1.0, -1.0):
                 for s2 in (1.0, -1.0):
                     if math.isnan(heading) and s2 < 0.0:
                         continue
+                    tried += 1
                     size, length = connection(
                         dx, dy, poses[i, 2], heading, s1, s2, rho, ramp, trial
                     )
                     if costs[i] + length < costs[j] - MIN_SHORTCUT_M and is_clear(
                         cache, poses[i, 0], poses[i, 1], poses[i, 2], trial, size
                     ):
-                        costs[j], before[j] = costs[i] + length, i
-                        sides[j, 0], sides[j, 1] = s1, s2
-    return _rebuilt(goal, parts, poses, begins, before, sides, rho, ramp)
+                        costs[j], found.before[j] = costs[i] + length, i
+                        found.sides[j, 0], found.sides[j, 1] = s1, s2
+            i += 1
+        if i < j:
+            break
+        j, i = j + 1, 0
+    found.cursor[TO_STATE], found.cursor[FROM_STATE] = j, i
+
+
+@kernel
+def with_shortcuts(
+    goal: Floats, parts: Floats, poses: Floats, begins: Ints, found: Shortcuts, rho: float,
+    ramp: float,
+) -> Floats:  # fmt: skip
+    """The segments of the best row of shortcuts, (k, 3); see ``look_for_shortcuts``."""
+    return _rebuilt(goal, parts, poses, begins, found.before, found.sides, rho, ramp)
 
 
 @inner

@@ -58,10 +58,6 @@ each connection that is tried and each move that is done [s]."""
 PASSAGES_S = 2e-2
 """Of the narrow places of a leg that it is led by [s]."""
 
-CHAIN_SEGMENT_S = 1e-4
-"""Of the shortcuts of what such a search has found, for each segment [s]."""
-
-
 JERK_KNOT_S = 3e-5
 """Of a time law with a limit of the jerk, for each of its points [s]."""
 

@@ -19,7 +19,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.heap import pop
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.turning.collision_cache import LOOKED_UP, RECKONED, CollisionCache, reach
+from viaspline.kernels.turning.collision_cache import CollisionCache, looked_at, reach
 from viaspline.kernels.turning.connect import MAX_SEGMENTS
 from viaspline.kernels.turning.hybrid_astar.goal_arrival import arrive, meet
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
@@ -54,7 +54,6 @@ from viaspline.kernels.turning.hybrid_astar.primitives import (
 )
 
 RUNNING, FULL, EMPTY, BEATEN = range(4)
-LOOK_UPS = 5  # of distances in tables take as long as one that is reckoned, or as a move
 
 
 @kernel
@@ -137,8 +136,7 @@ def _expand(
 @inner
 def _done(cache: CollisionCache, search: PoseSearch) -> int:
     """What was done so far, in what takes about the same time: see ``effort``."""
-    looked_at = cache.reckoned[RECKONED] + cache.reckoned[LOOKED_UP] // LOOK_UPS
-    return looked_at + search.counts[TRIED] + WAYS * search.counts[EXPANDED]
+    return looked_at(cache) + search.counts[TRIED] + WAYS * search.counts[EXPANDED]
 
 
 @kernel

@@ -8,7 +8,7 @@ that it can reach. What is found is shortened and laid as spans.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,10 +17,9 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE, Ahead
 from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
-from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
+from viaspline.kernels.turning.segment_chain import chain_spans, merged
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import (
-    CHAIN_SEGMENT_S,
     FIELD_CELL_S,
     PASSAGES_S,
     POSES_EFFORT_S,
@@ -37,16 +36,13 @@ from viaspline.planning.turning.hybrid_astar.search_outcome import (
 )
 from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree, backwards, bridged, met
 from viaspline.planning.turning.hybrid_astar.search_window import Body, SearchWindow, search_areas
+from viaspline.planning.turning.hybrid_astar.shortcut_search import ShortcutSearch
 from viaspline.world.world import World
 
 FIRST_BRIDGE_STATES = 1000  # after which a bridge is tried,
 BRIDGE_ENDS = 24  # between so many states of either search
 SHARE_AFTER_ARRIVAL = 0.25  # of states, that is looked at then; see ``SearchTree``
 HEADING_SECTORS = 16  # headings that are tried where any is allowed
-MAX_SHORTCUT_PASSES = 4
-LEAST_PASS_GAIN = 1e-3  # share of its length that a pass has to save for another one
-SHORTCUT_SPACING = 0.5  # between states on a line that shortcuts begin and end at, in radii,
-MAX_SHORTCUT_STATES = 40  # but not many more than these
 
 
 @dataclass(frozen=True)
@@ -301,7 +297,9 @@ def _one_way(problem: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | Not
         return _failure(both, problem.search_window.area.is_whole, expanded)
     _, segments, heading = min(taut_paths, key=lambda taut_path: taut_path[0])
     free = math.nan if not goal.headings else heading
-    return finished(problem, start, np.array([goal.x, goal.y, free]), segments, expanded), False
+    end = np.array([goal.x, goal.y, free])
+    asked = (problem.search_window.world, start, goal, problem.moves.sizes.tobytes())
+    return finished(problem, start, end, segments, expanded, asked), False
 
 
 def headings_at(problem: PoseProblem, goal: Goal, sectors: int = HEADING_SECTORS) -> Floats:
@@ -332,22 +330,34 @@ def turn_of(segments: Floats) -> float:
 
 
 def finished(
-    problem: PoseProblem, start: Pose, goal: Floats, segments: Floats, expanded: int
-) -> Chain:
-    """The chain of what was found, with shortcuts."""
+    problem: PoseProblem, start: Pose, goal: Floats, segments: Floats, expanded: int,
+    asked: tuple[Hashable, ...],
+) -> Chain:  # fmt: skip
+    """The chain of what was found, with shortcuts.
+
+    Args:
+        problem: Where.
+        start: Where it begins.
+        goal: x, y and heading; NaN where that is free, (3,).
+        segments: What was found, (n, 3).
+        expanded: How many states were looked at for it.
+        asked: All that it depends on.
+
+    Raises:
+        SpentBudgetError: When less is left than the next shortcuts cost.
+    """
     rho, ramp = problem.moves.sizes[:2].tolist()
     begin = np.array([start.x, start.y, start.heading])
-    length = math.inf
-    for _ in range(MAX_SHORTCUT_PASSES):
-        spacing = max(SHORTCUT_SPACING * rho, float(segments[:, 2].sum()) / MAX_SHORTCUT_STATES)
-        segments = merged(segments, rho)
-        problem.requirements.spend(CHAIN_SEGMENT_S * len(segments))
-        segments = shortened(problem.search_window.cache, begin, goal, segments, rho, ramp, spacing)
-        before, length = length, float(segments[:, 2].sum())
-        if length > (1.0 - LEAST_PASS_GAIN) * before:
-            break
-    segments = merged(segments, rho)
+
+    def set_out() -> ShortcutSearch:
+        return ShortcutSearch(problem.search_window.cache, begin, goal, segments, rho, ramp)
+
+    search = problem.requirements.taken_up(("shortcuts", *asked), set_out)
+    while not search.is_over:
+        problem.requirements.spend_on_part(POSES_EFFORT_S * search.effort)
+        search.go_on()
+    segments = merged(search.segments, rho)
     spans = chain_spans(begin, goal, segments)
     heading = start.heading + turn_of(segments) if math.isnan(goal[2]) else float(goal[2])
     end = Pose(float(goal[0]), float(goal[1]), heading)
-    return Chain(segments, spans, length, start, end, expanded)
+    return Chain(segments, spans, search.length, start, end, expanded)

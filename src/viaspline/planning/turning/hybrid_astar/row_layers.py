@@ -122,7 +122,7 @@ def through(
         layers.append(distinct[:MAX_ARRIVALS])
         has_seen_all = tree.state == EMPTY and not is_cut
         has_followed_all &= has_seen_all and len(distinct) <= MAX_ARRIVALS
-    return _chains(legs, roomy, layers, expanded), False
+    return _chains(legs, roomy, layers, expanded, asked), False
 
 
 def _is_shut_in(problem: PoseProblem, start: Pose, goal: Goal, budget: WorkBudget) -> bool:
@@ -171,9 +171,10 @@ def _grown(
                 ("back", *asked),
                 partial(problem.backwards, Pose(*start[:3].tolist()), goal, from_all),
             )
-        if not budget.affords(POSES_EFFORT_S * back.effort):
-            break
-        problem.go_on(back)
+        if not back.is_over:
+            if not budget.affords(POSES_EFFORT_S * back.effort):
+                break
+            problem.go_on(back)
         if back.state == EMPTY and problem.search_window.area.is_whole:
             return True, tree.expanded + back.expanded
     return False, tree.expanded + (0 if back is None else back.expanded)
@@ -190,8 +191,9 @@ def _distinct(arrivals: Sequence[_Arrival]) -> list[_Arrival]:
 
 
 def _chains(
-    legs: Sequence[RowLeg], starts: Sequence[Pose], layers: Sequence[list[_Arrival]], expanded: int
-) -> tuple[Chain, ...]:
+    legs: Sequence[RowLeg], starts: Sequence[Pose], layers: Sequence[list[_Arrival]],
+    expanded: int, asked: tuple[Hashable, ...],
+) -> tuple[Chain, ...]:  # fmt: skip
     """The shortest row, a chain for each number of its legs."""
     row = [layers[-1][0]]
     for layer in layers[-2:0:-1]:
@@ -199,12 +201,13 @@ def _chains(
     start = starts[row[0].before]
     chains: list[Chain] = []
     steps = groupby(zip(legs, row, strict=True), key=lambda step: step[0].number)
-    for _, parts in steps:
+    for number, parts in steps:
         *_, (leg, arrival) = some = list(parts)
         free = leg is legs[-1] and not leg.goal.headings
         heading = math.nan if free else float(arrival.pose[2])
         end = np.array([leg.goal.x, leg.goal.y, heading])
         segments = np.concatenate([each.segments for _, each in some])
-        chains.append(finished(leg.problem, start, end, segments, expanded))
+        every = (*asked, number)
+        chains.append(finished(leg.problem, start, end, segments, expanded, every))
         start = chains[-1].end
     return tuple(chains)

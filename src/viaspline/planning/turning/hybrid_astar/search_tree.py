@@ -98,13 +98,11 @@ class SearchTree:
         kernels.set_off(cache, self.search, self.ahead, float(moves.sizes[0]), starts)
 
     def copy(self) -> SearchTree:
-        """As far as it came: it and this one go on each by itself."""
+        """As far as it came: it and this one go on each by itself; one that is over is the same."""
+        if self.is_over:
+            return self
         tree = copy(self)
-        tree.cache = self.cache._replace(
-            known=self.cache.known.copy(),
-            coarse=self.cache.coarse.copy(),
-            reckoned=self.cache.reckoned.copy(),
-        )
+        tree.cache = self.cache.copied()
         search, count = self.search, int(self.search.counts[NODES])
         keys, nodes, size = search.heap
         waiting = int(size[0])
@@ -262,7 +260,7 @@ def _empty(
     steps = moves.scales[:, STEP]
     around = np.ceil(4.0 * math.pi * moves.sizes[0] / steps)
     nodes = room
-    table = 1 << math.ceil(math.log2(4 * nodes))
+    table = 1 << math.ceil(math.log2(2 * nodes))
     waiting = Heap(np.empty(nodes), np.empty(nodes, np.int64), np.zeros(1, np.int64))
     return PoseSearch(  # rows of nodes are written before they are read; the table has to be empty
         window=np.array(search_window.area.box),
