@@ -14,7 +14,7 @@ from viaspline.handed_in import number_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import cubic as kernels
 from viaspline.kernels.curve import frenet
-from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.compared_by_value import HASH, ComparedByValue
 from viaspline.presentable.shown_value import ShownValue
 
 
@@ -70,6 +70,14 @@ class PiecewiseCubic(Measured, ShownValue, ComparedByValue):
 
     def _said(self) -> tuple[object, ...]:
         return self._spans, self._closed, self._knots
+
+    def __hash__(self) -> int:
+        """Of its spans alone: a robot among what moves times a new path many times in each step."""
+        known = vars(self)
+        if HASH not in known:
+            known[HASH] = hash((self._spans.shape, (self._spans + 0.0).tobytes()))
+        found: int = known[HASH]
+        return found
 
     def __repr__(self) -> str:
         kind = "closed, " if self._closed else ""

@@ -72,7 +72,7 @@ def best_taken_up(
             break
         try:
             with _some_work(budget) as one:
-                requirements = replace(way.requirements, budget=one)
+                requirements = way.requirements.within(one)
                 other = replace(way, requirements=requirements).joined(tried, rolling, rejoin_by)
         except PlanningError:
             continue

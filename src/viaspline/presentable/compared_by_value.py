@@ -85,7 +85,8 @@ def is_same(one: object, other: object) -> bool:
         return bool(one == other)
     if isinstance(one, tuple | list):
         assert isinstance(other, tuple | list)
-        return len(one) == len(other) and all(map(is_same, one, other))
+        both = zip(one, other, strict=False)  # hundreds of obstacles, most of them the same objects
+        return len(one) == len(other) and all(a is b or is_same(a, b) for a, b in both)
     if _is_compared_by_fields(one):
         names = [field.name for field in fields(one) if field.compare]  # type: ignore[arg-type]
         return all(is_same(getattr(one, name), getattr(other, name)) for name in names)

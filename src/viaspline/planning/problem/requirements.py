@@ -126,7 +126,17 @@ class Requirements(ComparedByValue):
     @cached_property
     def unbudgeted(self) -> Requirements:
         """These for as long as it takes: parts of searches are kept by them."""
-        return replace(self, budget=None)
+        return self if self.budget is None else replace(self, budget=None)
+
+    def within(self, budget: WorkBudget) -> Requirements:
+        """These with what may be spent.
+
+        Parts of searches are kept by the same ``unbudgeted`` in every step, and not by another one
+        that has to be compared with it number by number.
+        """
+        within = replace(self, budget=budget)
+        vars(within)["unbudgeted"] = self.unbudgeted
+        return within
 
     @property
     def is_free_disc(self) -> bool:

@@ -193,13 +193,13 @@ class ReplanContext:
         """
         budget, trajectory = WorkBudget(limit, finished=dict(finished)), self.schedule.trajectory
         until = trajectory.cut_after(self.progress.time + limit)
-        task = replace(self.task, requirements=replace(self.task.requirements, budget=budget))
+        task = replace(self.task, requirements=self.task.requirements.within(budget))
         schedule = replace(self.schedule, committed_until=until)
         return replace(
             self,
             task=task,
             schedule=schedule,
-            requirements=replace(self.requirements, budget=budget),
+            requirements=self.requirements.within(budget),
             motion=MotionAhead.of(task, self.progress, self.knowledge, schedule),
         )
 
