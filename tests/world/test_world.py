@@ -378,3 +378,21 @@ def test_bounds_that_reach_into_a_box_stay() -> None:
     assert world.near((-1, 2, 8, 8)).bounds == world.bounds
     assert world.near((2, 2, 8, 25)).bounds == world.bounds
     assert len(world.near((10, 10, 12, 12))) == 0
+
+
+@given(seed=st.integers(0, 10**6), discs=st.integers(0, 40))
+@settings(max_examples=15, deadline=None)
+def test_what_is_near_stands_where_it_stood_whatever_it_is_packed_as(
+    seed: int, discs: int, shapely_distance: Oracle
+) -> None:
+    rng = np.random.default_rng(seed)
+    rows = np.column_stack((rng.uniform(0, 100, (discs, 2)), rng.uniform(0.1, 3, discs)))
+    sided = disc(50, 50, 1, name="buoy", pass_on="left")
+    world = World((*random_obstacles(seed, 12), sided)).with_obstacles(disc(*row) for row in rows)
+    x0, y0 = rng.uniform(0, 60, 2).tolist()
+    near = world.near((x0, y0, x0 + 35.0, y0 + 35.0))
+    assert set(near.names) <= set(world.names)
+    assert [near.name(i) for i in near.sided] == (["buoy"] if "buoy" in near.names else [])
+    xy = rng.uniform(0, 100, (200, 2))
+    expected = shapely_distance(xy, near.obstacles) if len(near) else np.full(200, np.inf)
+    np.testing.assert_allclose(near.distance(xy), expected, atol=1e-9)

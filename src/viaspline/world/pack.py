@@ -88,6 +88,27 @@ def pack_discs(discs: Floats) -> PackedWorld:
     )  # fmt: skip
 
 
+def discs_at_end(world: PackedWorld, indices: Ints, sided: Sequence[int]) -> tuple[Floats, int]:
+    """Of some obstacles the last ones that are discs without a side of their own.
+
+    A lidar's are hundreds: as arrays they are packed without a look at each.
+
+    Args:
+        world: Where they are.
+        indices: Of obstacles in it, (n,).
+        sided: Indices of those that ask for a side.
+
+    Returns:
+        (x, y and radius of each of the last [m], (k, 3); how many stand before them).
+    """
+    slot = world.slot[indices]
+    are_others = np.isin(indices, sided) | (slot < 0)
+    are_others[~are_others] |= world.heads[slot[~are_others], 3] != 1.0
+    others = np.flatnonzero(are_others)
+    first = int(others[-1]) + 1 if others.size else 0
+    return world.heads[slot[first:], :3].copy(), first
+
+
 def _grids(grids: Sequence[Grid]) -> Grids:
     """Frames, shapes and tables of grids, as in PackedWorld."""
     frames = [

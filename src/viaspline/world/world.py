@@ -21,7 +21,7 @@ from viaspline.mission.strip import corridor_rings
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.world.outline import outline
-from viaspline.world.pack import Rings, join, pack, pack_discs
+from viaspline.world.pack import Rings, discs_at_end, join, pack, pack_discs
 from viaspline.world.tree_growth import leaf_boxes
 
 Bounds = tuple[float, float, float, float]
@@ -147,21 +147,19 @@ class World(ShownValue, ComparedByValue):
         x0, y0, x1, y1 = box
         boxes = leaf_boxes(self.packed)
         meets = (boxes[:, 0] <= x1) & (boxes[:, 2] >= x0) & (boxes[:, 1] <= y1)
-        found = np.flatnonzero(meets & (boxes[:, 3] >= y0)).tolist()
+        found = np.flatnonzero(meets & (boxes[:, 3] >= y0))
         bounds = self.bounds
         if bounds is not None and (bounds[0] < x0 and bounds[1] < y0):
             bounds = None if bounds[2] > x1 and bounds[3] > y1 else bounds
-        return World(
-            (
-                obstacle
-                if obstacle.name is not None or obstacle.grid is not None
-                else obstacle.model_copy(update={"name": self.name(i)})
-                for i, obstacle in ((i, self.obstacles[i]) for i in found)
-            ),
-            bounds=bounds,
-            fences=self.fences,
-            corridor=self.corridor,
+        named = tuple(
+            obstacle
+            if obstacle.name is not None or obstacle.grid is not None
+            else obstacle.model_copy(update={"name": self.name(i)})
+            for i, obstacle in ((i, self.obstacles[i]) for i in found.tolist())
         )
+        rows, first = discs_at_end(self.packed, found, self._sided)
+        world = World(named[:first], bounds=bounds, fences=self.fences, corridor=self.corridor)
+        return world.with_discs(named[first:], rows)
 
     @property
     def sided(self) -> Ints:

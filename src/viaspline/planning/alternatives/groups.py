@@ -103,7 +103,8 @@ def groups_met(leg: LegSearch, labels: NDArray[np.int64], active: Flags) -> tupl
 
 def sided_among(world: World, indices: Sequence[int]) -> list[int]:
     """Those of some obstacles that ask for a side."""
-    return [i for i in indices if world.obstacles[i].forced_side is not None]
+    sided = set(world.sided.tolist())
+    return [i for i in indices if i in sided] if sided else []
 
 
 def asked_of(world: World, forced: Sequence[int]) -> tuple[Side, str] | None:

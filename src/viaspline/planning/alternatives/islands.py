@@ -99,16 +99,18 @@ def _members(leg: LegSearch, island: NDArray[np.bool_]) -> Ints:
 
 def _names(leg: LegSearch, members: Ints, middle: Floats) -> tuple[str, ...]:
     """What an island consists of: its obstacles, and where on a map it is."""
-    world = leg.world
-    names = []
-    for i in members.tolist():
-        if not world.are_maps[i]:
-            names.append(world.name(i))
-        elif world.distances_to(i, middle[None, :])[0] < leg.requirements.required:
-            names.append(f"{world.name(i)} at ({middle[0]:.2f}, {middle[1]:.2f})")
-    if len(names) > MAX_ISLAND_NAMES:
-        return (*names[:MAX_ISLAND_NAMES], f"{len(names) - MAX_ISLAND_NAMES} more")
-    return tuple(names)
+    world, are_maps = leg.world, leg.world.are_maps
+    named = [
+        i
+        for i in members.tolist()
+        if not are_maps[i] or world.distances_to(i, middle[None, :])[0] < leg.requirements.required
+    ]
+    names = [
+        f"{world.name(i)} at ({middle[0]:.2f}, {middle[1]:.2f})" if are_maps[i] else world.name(i)
+        for i in named[:MAX_ISLAND_NAMES]
+    ]
+    more = len(named) - len(names)
+    return (*names, f"{more} more") if more else tuple(names)
 
 
 def _centres(world: World) -> Floats:

@@ -163,7 +163,8 @@ def _cut_to_bounds(world: World, cells: Bytes, low: tuple[float, float], side: f
 
 
 def _grids(world: World) -> list[Grid]:
-    return [obstacle.grid for obstacle in world.obstacles if obstacle.grid is not None]
+    maps = (world.obstacles[i].grid for i in np.flatnonzero(world.are_maps).tolist())
+    return [grid for grid in maps if grid is not None]
 
 
 def _frame(world: World, box: Box, side: float) -> tuple[float, float, tuple[int, int]]:

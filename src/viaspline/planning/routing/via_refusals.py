@@ -59,16 +59,8 @@ def _no_room(
     via: RouteVia, room: float, index: int, beside: Floats, world: World,
     requirements: Requirements,
 ) -> NoPathError:  # fmt: skip
-    place = _place_instead(via.at[:2], beside, world, requirements.required)
     name = world.name(index)
-    free = room - requirements.radius - requirements.tracking_error
-    moves = [] if place is None else [f"move it to ({place[0]:.3f}, {place[1]:.3f})"]
-    changes = change_moving(via, place)
-    most = float(np.floor(free * 1000) / 1000)
-    kept = requirements.radius + requirements.tracking_error + most
-    if 0 <= free < requirements.clearance and are_joined([via.at, *beside], world, kept - SPARE_M):
-        moves.append(f"set robot.clearance_m to at most {most:.3f}")
-        changes += (Change("robot.clearance_m", most),)
+    moves, changes = _what_helps(via, room, beside, world, requirements)
     missing = requirements.required - room
     what = "outside" if index < -1 and room < 0 else f"{missing:.3f} m inside the clearance of"
     return NoPathError(
@@ -79,6 +71,28 @@ def _no_room(
         obstacles=(name,),
         changes=changes,
     )
+
+
+def _what_helps(
+    via: RouteVia, room: float, beside: Floats, world: World, requirements: Requirements
+) -> tuple[list[str], tuple[Change, ...]]:
+    """What would serve a via point, in words and as changes of the mission.
+
+    A robot under way is where it is: nothing is looked for then, which would take longer than all
+    that is laid in its step.
+    """
+    if via.index is None:
+        return [], ()
+    place = _place_instead(via.at[:2], beside, world, requirements.required)
+    free = room - requirements.radius - requirements.tracking_error
+    moves = [] if place is None else [f"move it to ({place[0]:.3f}, {place[1]:.3f})"]
+    changes = change_moving(via, place)
+    most = float(np.floor(free * 1000) / 1000)
+    kept = requirements.radius + requirements.tracking_error + most
+    if 0 <= free < requirements.clearance and are_joined([via.at, *beside], world, kept - SPARE_M):
+        moves.append(f"set robot.clearance_m to at most {most:.3f}")
+        changes += (Change("robot.clearance_m", most),)
+    return moves, changes
 
 
 def change_moving(via: RouteVia, place: Floats | None) -> tuple[Change, ...]:
