@@ -28,6 +28,7 @@ from barn_worlds import RADIUS_M, is_there_a_way, posts
 import viaspline as vs
 from viaspline.robot import navigator_step
 from viaspline.robot.perception.belief import Belief
+from viaspline.warming.spared_collections import spare_collections
 
 SAMPLES_PER_M = 4000
 WARM_UP_SEEDS = (13, 28, 47)  # in these every kind of search is asked: it is compiled and loaded
@@ -87,6 +88,7 @@ def main() -> None:
     navigator_step.clock = SimpleNamespace(perf_counter=time.thread_time)
     for seed in WARM_UP_SEEDS:
         drive(seed, options.noise)
+    spare_collections()  # as for a navigator that is warmed
     outcomes = []
     try:
         for seed in options.only or range(options.first, options.first + options.worlds):

@@ -22,6 +22,7 @@ from random_drives import drives
 
 import viaspline as vs
 from viaspline.precompile import compile_curves, compile_driving
+from viaspline.warming.spared_collections import spare_collections
 
 
 @dataclass
@@ -47,6 +48,7 @@ def measured(mission: vs.Mission, plan: vs.Plan, into: list[Steps]) -> vs.Run:
             (steps.under_way if state.speed > 1e-3 else steps.standing).append(spent)
         return found
 
+    spare_collections()  # as for a navigator that is warmed
     vs.Navigator.step = timed
     try:
         return vs.simulate(mission, plan=plan)
