@@ -2,10 +2,10 @@
 
     pip install ".[bench]" && python benchmarks/steps.py [DRIVES [SEED [PART ...]]]
 
-Counted is the processor's time of every ``Navigator.step`` with all kernels warm. A step of a robot
-that stands may take longer: nothing happens to it meanwhile, so it may search on with more. With
-parts (``lidar``, ``jerk``, ``yaw``, ``zones``) all drives have these besides. An
-interrupt ends it with what was measured by then.
+Counted is the processor's time of every ``Navigator.step`` of a navigator that is warmed. A step of
+a robot that stands may take longer: nothing happens to it meanwhile, so it may search on with more.
+With parts (``lidar``, ``jerk``, ``yaw``, ``zones``) all drives have these besides. An interrupt
+ends it with what was measured by then.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from random_drives import drives
 
 import viaspline as vs
 from viaspline.precompile import compile_curves, compile_driving
-from viaspline.warming.spared_collections import spare_collections
+from viaspline.robot.warmed import warm_up
 
 
 @dataclass
@@ -48,7 +48,7 @@ def measured(mission: vs.Mission, plan: vs.Plan, into: list[Steps]) -> vs.Run:
             (steps.under_way if state.speed > 1e-3 else steps.standing).append(spent)
         return found
 
-    spare_collections()  # as for a navigator that is warmed
+    warm_up(mission, None)
     vs.Navigator.step = timed
     try:
         return vs.simulate(mission, plan=plan)
