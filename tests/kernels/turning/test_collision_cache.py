@@ -68,4 +68,4 @@ def test_what_lies_far_along_a_chain_is_seen_without_all_that_is_before_it():
     free, shut = (cache(World(things), [(0.0, 0.0, 0.65)]) for things in (posts, [*posts, wall]))
     assert is_clear(free, -12.0, 0.0, 0.0, line, 1)
     assert not is_clear(shut, -12.0, 0.0, 0.0, line, 1)
-    assert shut.reckoned[LOOKED_UP] < 0.1 * free.reckoned[LOOKED_UP]
+    assert shut.reckoned[LOOKED_UP] < 0.15 * free.reckoned[LOOKED_UP]  # coarse looks among them
