@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.common_parts import common_parts
 from viaspline.kernels.fleet.crossing_leaders import crossing_leaders
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 
@@ -94,6 +96,38 @@ def crossings_in(
     is_in = (distance[cells] <= place) & (place <= distance[cells + 1])
     is_in &= (found.low[box] <= other) & (other <= found.high[box])
     return set(found.crossing[box][is_in].tolist())
+
+
+def common_by_looking_at_all(planned: FleetPlan) -> set[tuple[float, ...]]:
+    """Common parts of the boxes of two robots, from all pairs of boxes."""
+    packed, distance = planned.crossings.packed, planned.courses.packed.distance
+    found = set()
+    for b in range(*packed.box_first[:2]):
+        for d in range(*packed.box_first[1:3]):
+            since = max(distance[packed.cell[d]], packed.low[b])
+            until = min(distance[packed.cell[d] + 1], packed.high[b])
+            left = max(distance[packed.cell[b]], packed.low[d])
+            right = min(distance[packed.cell[b] + 1], packed.high[d])
+            if packed.crossing[b] == packed.crossing[d] and since <= until and left <= right:
+                found.add((b, d, left, right, since, until))
+    return found
+
+
+@settings(deadline=None, max_examples=15)
+@given(st.lists(ROUTES, min_size=2, max_size=2))
+def test_common_parts_are_those_that_all_pairs_of_boxes_have(routes: list[Any]) -> None:
+    data = [
+        {"name": f"r{k}", "route": {"start": way[0], "via": way[1:-1], "goal": way[-1]}}
+        for k, way in enumerate([routes[0], [[x + 2.0, y + 2.0] for x, y in routes[1]]])
+    ]
+    planned = vs.plan_fleet(vs.Fleet.model_validate({"separation_m": 1, "fleet": data}))
+    packed = planned.crossings.packed
+    if len(planned.plans) < 2:
+        return
+    boxes, part = common_parts(planned.courses.packed, packed, np.ones(len(packed.robots), bool))
+    rows = np.column_stack([boxes, part]).tolist()
+    assert {tuple(row) for row in rows} == common_by_looking_at_all(planned)
+    assert rows == sorted(rows, key=lambda row: row[:2])
 
 
 @settings(deadline=None, max_examples=15)

@@ -20,10 +20,32 @@ from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.growable import new_floats, new_ints, sized_floats, sized_ints
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import kernel, uncounted
 
 NEAR_M: Final = 1e-9
 """Parts that are no farther from each other touch [m]."""
+
+
+@uncounted
+def first_box_behind(
+    courses: PackedCourses, crossings: PackedCrossings, robot: int, place: float
+) -> int:
+    """The first box of a robot whose cell doesn't end before a place of its path [m].
+
+    Args:
+        courses: PackedCourses.
+        crossings: PackedCrossings; its boxes are in the order of their cells.
+        robot: Whose boxes.
+        place: Distance along its path [m].
+    """
+    low, high = crossings.box_first[robot], crossings.box_first[robot + 1]
+    while low < high:
+        middle = (low + high) // 2
+        if courses.distance[crossings.cell[middle] + 1] < place:
+            low = middle + 1
+        else:
+            high = middle
+    return low
 
 
 @kernel
@@ -50,13 +72,18 @@ def common_parts(
                 continue
             begin = courses.distance[crossings.cell[b]]
             end = courses.distance[crossings.cell[b] + 1]
-            for d in range(crossings.box_first[other], crossings.box_first[other + 1]):
+            for d in range(
+                first_box_behind(courses, crossings, other, crossings.low[b]),
+                crossings.box_first[other + 1],
+            ):
+                if courses.distance[crossings.cell[d]] > crossings.high[b]:
+                    break
                 if crossings.crossing[d] != c:
                     continue
                 since = max(courses.distance[crossings.cell[d]], crossings.low[b])
                 until = min(courses.distance[crossings.cell[d] + 1], crossings.high[b])
                 left, right = max(begin, crossings.low[d]), min(end, crossings.high[d])
-                if since > until or left > right:
+                if left > right:
                     continue
                 if count == len(boxes):
                     boxes = sized_ints(boxes, count, 2 * count)
