@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 from math import floor
 
 import numpy as np
 
 from viaspline.errors import GeometryError
-from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.execution.believed_reports import believed
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
 from viaspline.fleet.execution.dwells import FleetStations, dwell
@@ -17,6 +16,7 @@ from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressRepor
 from viaspline.fleet.execution.fleet_orders import index_of, orders_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent, swapped_event
+from viaspline.fleet.execution.fleet_standing import FleetStanding
 from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
 from viaspline.fleet.execution.granted_commands import commands_of
 from viaspline.fleet.execution.rolled_over import rolled_over
@@ -25,7 +25,6 @@ from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.still_world import check_still
 from viaspline.handed_in import all_of, check_kind, number_from, time_from
 from viaspline.kernels.fleet.dispatching import dispatch_step
-from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.route_spec import Route
 from viaspline.robot.warmed import KernelCallback, warm_up
@@ -38,7 +37,7 @@ SILENT_S = 5.0
 """A robot that isn't heard of for longer is said to be silent."""
 
 
-class FleetNavigator:
+class FleetNavigator(FleetStanding):
     """Drives the plan of a fleet in a person's own control room; immutable.
 
     Every step takes what robots have reported, and gives a command for each of them and the
@@ -101,7 +100,7 @@ class FleetNavigator:
         check_still(plan.fleet)
         warm_up(plan.fleet, progress, warm)
         self._begin(driven_fleet_of(plan), margin_m, stops_within_m, period)
-        self._missions: FleetMissions | None = FleetMissions.of(plan)
+        self._missions = FleetMissions.of(plan)
 
     @classmethod
     def of(
@@ -136,11 +135,6 @@ class FleetNavigator:
         navigator._fleet, navigator._missions = under_way.fleet, under_way.missions
         navigator._stations = FleetStations.of(under_way.fleet)
         return navigator
-
-    @property
-    def _under_way(self) -> FleetUnderWay:
-        short = self._margin + self._short
-        return FleetUnderWay(self._fleet, self._missions, self._state, short)
 
     def step(
         self, reports: Iterable[ProgressReport], time: float
@@ -311,71 +305,6 @@ class FleetNavigator:
             GeometryError: This navigator has no plan.
         """
         return self._as(self._under_way.replanned())
-
-    def __repr__(self) -> str:
-        state = self._state
-        when = f"at {state.time:.1f} s" if np.isfinite(state.time) else "before the first step"
-        arrived, out = int(state.arrived.sum()), int(state.out.sum())
-        return f"FleetNavigator({len(self.names)} robots {when}, {arrived} arrived, {out} out)"
-
-    @property
-    def paths(self) -> Mapping[str, AnyPlan]:
-        """The path that each robot drives, with the law that it would drive alone, by name.
-
-        Raises:
-            GeometryError: This navigator has no plan.
-        """
-        return self._under_way.known.plans
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """All robots of the fleet, those that don't drive any more as well."""
-        return self._fleet.names
-
-    @property
-    def time(self) -> float:
-        """Of the last step [s]; minus infinity before the first one."""
-        return self._state.time
-
-    @property
-    def events(self) -> tuple[FleetEvent, ...]:
-        """What happened in the last step, or when the fleet was changed after it."""
-        return self._state.events
-
-    @property
-    def progress(self) -> dict[str, float]:
-        """How far each robot has come at least [m]; infinite: it has left the world."""
-        come = self._state.packed.progress + self._state.driven
-        return dict(zip(self.names, come.tolist(), strict=True))
-
-    @property
-    def reached(self) -> bool:
-        """Whether all robots that drive have arrived."""
-        return bool((self._state.arrived | self._state.out).all())
-
-    @property
-    def blocked(self) -> dict[str, str]:
-        """Robots that will never get on for a dead one, and for whom each of them waits."""
-        stuck = self._state.stuck()
-        others = self._state.orders.packed.other
-        return {self.names[r]: self.names[others[stuck[r]]] for r in np.flatnonzero(stuck >= 0)}
-
-    def expected(self) -> dict[str, float]:
-        """When each robot will arrive, if none is delayed any more [s]; infinite: never.
-
-        Inertia is left out, so it is a little sooner than they will.
-        """
-        state, orders = self._state, self._state.orders.packed
-        begin = np.where(state.packed.fixed, np.inf, state.packed.begin)
-        last = expected_shifts(
-            orders, state.packed.leaders, state.sequence, state.packed.head, begin
-        )[1]
-        ends = self._fleet.courses.packed.first[1:] - 1
-        arrive = last + self._fleet.alone.leave[ends]
-        arrive[self._state.stuck() >= 0] = np.inf
-        if self._fleet.rounds is not None:
-            arrive[self._fleet.rounds > 0.0] = np.inf
-        return dict(zip(self.names, arrive.tolist(), strict=True))
 
 
 def _length(name: str, value: float) -> float:
