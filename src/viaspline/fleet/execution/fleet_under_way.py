@@ -158,7 +158,7 @@ class FleetUnderWay:
         """With a robot that begins a path of its own now, in place of one of its name."""
         missions, fleet, state = self.known, self.fleet, self.state
         member = _departing(member, max(member.mission.route.depart_s, self.now))
-        plan = laid_now(fleet, state, missions, member, self._out)
+        plan = laid_now(fleet, member, self._sought(member.name, member.mission))
         let_in = LetIn(state.packed.progress, state.packed.promised, state.out)
         leaves = fleet.names.index(member.name) if member.name in fleet.names else None
         laws = expected_laws(fleet, state, leaves)

@@ -5,11 +5,10 @@ Tested through ``fleet/execution/test_changed_flights``.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.fleet.execution.no_ways import SoughtWay
 from viaspline.fleet.execution.ways_from_rest import (
     FleetMissions,
     from_where_it_stands,
@@ -23,7 +22,7 @@ from viaspline.fleet.execution.ways_in_the_air import (
     laid_from_hover,
     rest_of_flight,
 )
-from viaspline.fleet.laying.resting_places import RestingPlace
+from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces
 from viaspline.fleet.space.hover_places import HoverPlace
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.model import Mission
@@ -75,25 +74,20 @@ def around_now(
     return rests_now(fleet, state, missions, name).places
 
 
-def laid_now(
-    fleet: DrivenFleet, state: FleetProgressState, missions: FleetMissions, member: FleetMember,
-    out: Sequence[str],
-) -> AnyPlan:  # fmt: skip
+def laid_now(fleet: DrivenFleet, member: FleetMember, sought: SoughtWay) -> AnyPlan:
     """The path of a robot round all that rest now or will, and the law that it would drive alone.
 
     Args:
         fleet: What is driven.
-        state: How far it has come.
-        missions: Of the robots.
         member: The robot, with a mission that begins where it stands.
-        out: Those that never get on any more.
+        sought: Round whom.
 
     Raises:
         PlanningError: There is no way, or none was found.
         GeometryError: The robot can't follow it.
     """
     if fleet.flies:
-        hovers = hovers_now(fleet, state, missions, member.name)
+        hovers = [one for one in sought.around if isinstance(one, HoverPlace)]
         return laid_from_hover(member, fleet.separation, hovers)
-    rests = rests_now(fleet, state, missions, member.name)
-    return laid_from_rest(member, fleet.separation, rests, out)
+    rests = tuple(one for one in sought.around if isinstance(one, RestingPlace))
+    return laid_from_rest(member, fleet.separation, RestingPlaces(rests), sought.out)
