@@ -6,6 +6,7 @@ from viaspline.advice import advise_tension
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind
 from viaspline.mission.model import Mission
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.whole_plan import Plan, in_order, whole_plan
 from viaspline.world.world import World
 
@@ -45,16 +46,18 @@ def plan(mission: Mission) -> Plan:
     return plan_in(*in_order(mission))
 
 
-def plan_in(mission: Mission, world: World) -> Plan:
+def plan_in(mission: Mission, world: World, spending: WorkBudget | None = None) -> Plan:
     """Plan a mission in a world that is at hand: as ``plan``, which builds one for each mission.
 
     Args:
         mission: Its via points in the order in which they are served; see ``in_order``.
         world: What it keeps clear of: at least what the mission has on its map.
+        spending: What all paths past what moves may spend together, but for those by which a
+            tension is chosen; None: each as much as usual.
 
     Raises:
         NoPathError, GaveUpError, GeometryError: As ``plan``.
     """
     if mission.spline.tension == "auto":
         return advise_tension(mission, world=world).plan
-    return whole_plan(mission, world)
+    return whole_plan(mission, world, spending)

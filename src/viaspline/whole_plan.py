@@ -29,6 +29,7 @@ from viaspline.planning.plan_drive import find_drive
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.routing.visit_order import ordered
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.named_columns import Table
@@ -140,12 +141,13 @@ class Plan(ShownValue, SavedValue, ComparedByValue):
         return TrialDrives(self.path, self.trajectory, self.mission.robot)
 
 
-def whole_plan(mission: Mission, world: World) -> Plan:
+def whole_plan(mission: Mission, world: World, spending: WorkBudget | None = None) -> Plan:
     """Plan a mission that says how taut its spline is, or doesn't; ``auto`` is not among that.
 
     Args:
         mission: Its via points in the order in which they are served.
         world: What it has on its map.
+        spending: What all paths past what moves may spend together; None: each as much as usual.
 
     Raises:
         NoPathError: When there is no path, with the reason and the least change that would serve.
@@ -156,10 +158,10 @@ def whole_plan(mission: Mission, world: World) -> Plan:
     error = robot.tracking_error_m or 0.0
     if robot.tracking_error_m is None and robot.sensor is not None and is_driven(robot):
         error = allowance_on_bends(robot, Requirements.of(mission).required)
-    first = _with_error(mission, world, error)
+    first = with_error(mission, world, error, spending)
     if robot.tracking_error_m is not None or not is_driven(robot):
         return first
-    return _with_steering_left(first, error)
+    return _with_steering_left(first, error, spending)
 
 
 def in_order(mission: Mission) -> tuple[Mission, World]:
@@ -175,12 +177,13 @@ def in_order(mission: Mission) -> tuple[Mission, World]:
     return served, world
 
 
-def _with_steering_left(first: Plan, error: float) -> Plan:
+def _with_steering_left(first: Plan, error: float, spending: WorkBudget | None) -> Plan:
     """The plan as driven whose path leaves steering to correct with, where that doesn't cost much.
 
     Args:
         first: A plan as the robot could drive it, that keeps ``error`` [m].
         error: With which others begin.
+        spending: As for ``whole_plan``.
 
     Raises:
         PlanningError, GeometryError: What the first ends in, where no other plan is found.
@@ -191,11 +194,12 @@ def _with_steering_left(first: Plan, error: float) -> Plan:
         eased = robot.model_copy(update={"min_turn_radius_m": radius})
         wider = mission.model_copy(update={"robot": eased})
         with suppress(PlanningError, GeometryError):
-            roomy.append(_as_driven(_with_error(wider, first.world, max(kept, error))))
+            eased_first = with_error(wider, first.world, max(kept, error), spending)
+            roomy.append(as_driven(eased_first, spending))
             if _is_as_soon(roomy[-1], first, HARDLY_LONGER):
                 return roomy[-1]
     try:
-        tight = _as_driven(first)
+        tight = as_driven(first, spending)
     except (PlanningError, GeometryError):
         if not roomy:
             raise
@@ -203,11 +207,12 @@ def _with_steering_left(first: Plan, error: float) -> Plan:
     return next((plan for plan in roomy if _is_as_soon(plan, tight, MAX_LONGER)), tight)
 
 
-def _as_driven(first: Plan) -> Plan:
+def as_driven(first: Plan, spending: WorkBudget | None = None) -> Plan:
     """The plan that keeps as much beyond the clearance as the robot gets beside it.
 
     Args:
         first: A plan, whatever it keeps.
+        spending: As for ``whole_plan``.
     """
     result = first
     for _ in range(MAX_TRIAL_ROUNDS):
@@ -215,7 +220,7 @@ def _as_driven(first: Plan) -> Plan:
         if needed <= result.tracking_error:
             return result
         error = ALLOWANCE_GROWTH * max(needed, result.tracking_error)
-        result = _with_error(first.mission, first.world, error)
+        result = with_error(first.mission, first.world, error, spending)
     raise GeometryError(
         f"the robot gets ever farther beside its path, {result.tracking_error:.2f} m in the last "
         f"trial drive; give it {tracking_remedy(result.mission.robot)}"
@@ -227,8 +232,17 @@ def _is_as_soon(plan: Plan, other: Plan, longer: float) -> bool:
     return plan.trajectory.duration <= longer * other.trajectory.duration
 
 
-def _with_error(mission: Mission, world: World, error: float) -> Plan:
-    """The plan that keeps ``error`` [m] more than the clearance."""
+def with_error(
+    mission: Mission, world: World, error: float, spending: WorkBudget | None = None
+) -> Plan:
+    """The plan that keeps ``error`` [m] more than the clearance, however far the robot gets beside.
+
+    Args:
+        mission: As for ``whole_plan``.
+        world: As for ``whole_plan``.
+        error: What it keeps beyond the clearance [m].
+        spending: As for ``whole_plan``.
+    """
     requirements = Requirements.of(mission, error)
     try:
         found = find_drive(mission, world, requirements)
@@ -238,25 +252,33 @@ def _with_error(mission: Mission, world: World, error: float) -> Plan:
             problem.args = (f"{problem.reason}: {problem.remedy}",)
         raise
     if mission.world.moving:
-        return _among_what_moves(mission, world, requirements, found, error)
+        return _among_what_moves(mission, world, requirements, found, spending)
     trajectory = fastest_law(found.path, mission, stations(found.path, mission.robot))
     return Plan(mission, world, found.path, found.certificate, found.account, trajectory, error)
 
 
 def _among_what_moves(
-    mission: Mission, world: World, requirements: Requirements, found: Solution, error: float
-) -> Plan:
+    mission: Mission, world: World, requirements: Requirements, found: Solution,
+    spending: WorkBudget | None,
+) -> Plan:  # fmt: skip
     """The plan that arrives first past what moves."""
     robot = mission.robot
     problem = TimedProblem(
         mission, world, MovingObstacles.known(mission), requirements, limits_of(robot),
         lambda path: stations(path, robot),
     )  # fmt: skip
-    timed = plan_among(problem, found)
+    if spending is None:
+        timed = plan_among(problem, found)
+    else:
+        with problem.within(spending) as one:
+            timed = plan_among(one, found)
     path, certificate, account = (
         timed.solution.path, timed.solution.certificate, timed.solution.account,
     )  # fmt: skip
-    return Plan(mission, world, path, certificate, account, timed.trajectory, error, timed)
+    return Plan(
+        mission, world, path, certificate, account, timed.trajectory,
+        requirements.tracking_error, timed,
+    )  # fmt: skip
 
 
 def fastest_law(path: Path, mission: Mission, stops: Sequence[Station]) -> Trajectory:

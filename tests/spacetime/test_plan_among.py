@@ -15,7 +15,7 @@ from viaspline.planning.plan_drive import find_drive
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.report.plan_json import plan_json
-from viaspline.spacetime import alternatives, plan_among, timed_problem
+from viaspline.spacetime import alternatives, timed_problem
 from viaspline.world.world import World
 
 RADIUS, CLEARANCE = 0.3, 0.2
@@ -310,7 +310,7 @@ def test_all_paths_and_laws_past_what_moves_share_one_budget(
     assert len(budgets) > 10
     assert sum(budget.spent for budget in budgets) <= timed_problem.AMONG_S
     known = len(budgets)
-    monkeypatch.setattr(plan_among, "BETTER_S", 0.0)
+    monkeypatch.setattr(timed_problem, "BETTER_S", 0.0)
     vs.plan(herd())
     assert len(budgets) == known
 

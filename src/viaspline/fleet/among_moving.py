@@ -12,6 +12,7 @@ from dataclasses import replace
 
 from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.held_laws import laws_hold
+from viaspline.fleet.laying.laying_work import LayingWork
 from viaspline.fleet.laying.layings_with_room import layings_with_room
 from viaspline.fleet.relaid_fleet import driven_alone
 from viaspline.fleet.timed_fleet import TimedFleet
@@ -30,17 +31,24 @@ ENDLESS = (
 )
 """Said of a patrol among things that move."""
 
+ALL_SPENT = (
+    "what may be spent on ways past what moves was spent on other robots of the fleet",
+    "give it a priority above theirs, let it depart at another time, or plan fewer robots at once",
+)
+"""Said of a robot for which nothing was left."""
+
 Serve = Callable[[dict[int, int]], TimedFleet]
 """Times robots as if nothing moved, but for those that stand at their starts."""
 
 
-def among_moving(fleet: Fleet, ways: FleetWays, serve: Serve) -> TimedFleet:
+def among_moving(fleet: Fleet, ways: FleetWays, serve: Serve, work: LayingWork) -> TimedFleet:
     """Time a fleet so that every robot that is served is clear of what moves.
 
     Args:
         fleet: What is asked for.
         ways: The paths of its robots where nothing moves.
         serve: Times robots along them.
+        work: What may be spent on laying robots anew.
     """
     reasons = {k: ENDLESS for k, one in enumerate(ways.members) if one.mission.route.is_patrol}
     while True:
@@ -49,7 +57,7 @@ def among_moving(fleet: Fleet, ways: FleetWays, serve: Serve) -> TimedFleet:
         met = [name for name, plan in plans.items() if not moving_proof(fleet, plan).holds]
         if not met:
             return replace(timed, reasons=reasons)
-        found = _relaid(fleet, timed, plans, met)
+        found = _relaid(fleet, timed, plans, met, work)
         if isinstance(found, TimedFleet):
             return replace(found, reasons=reasons)
         names = ways.courses.names
@@ -89,14 +97,17 @@ def proven_among(fleet: Fleet, plan: Plan) -> Plan:
 
 
 def _relaid(
-    fleet: Fleet, timed: TimedFleet, plans: Mapping[str, Plan], met: list[str]
+    fleet: Fleet, timed: TimedFleet, plans: Mapping[str, Plan], met: list[str], work: LayingWork
 ) -> TimedFleet | dict[str, tuple[str, str]]:
     """The fleet with other paths and laws for those that would be met; or why some have none."""
     fixed = {name: plan for name, plan in plans.items() if name not in met}
     ranks = {one.name: one.priority for one in timed.ways.members}
     names = sorted(met, key=lambda name: -ranks[name])
+    if work.is_spent:
+        return dict.fromkeys(names, ALL_SPENT)
     failed: dict[str, tuple[str, str]] = {}
-    for found in layings_with_room(fleet, fixed, names):
+    known = dict(zip(timed.ways.courses.names, timed.ways.planar, strict=True))
+    for found in layings_with_room(fleet, fixed, names, known, work):
         failed = {one.name: (one.reason, one.remedy) for one in found.not_served}
         if not failed:
             kept = _as_laid(fleet, timed, fixed, found.plans)

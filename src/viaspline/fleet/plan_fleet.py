@@ -14,6 +14,7 @@ from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.late_share import arrivals_of
 from viaspline.fleet.laying.alone_paths import AlonePaths, alone_paths
 from viaspline.fleet.laying.laid_pieces import THIS_PROCESS, LayingProgress
+from viaspline.fleet.laying.laying_work import LayingWork
 from viaspline.fleet.laying.laying_workers import LayingWorkers
 from viaspline.fleet.led_fleet import is_dense, led_at_once, may_be_led_sooner
 from viaspline.fleet.not_served import NotServed
@@ -23,7 +24,7 @@ from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet, try_cost
 from viaspline.fleet.robots_at_home import certify_all
-from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_along
+from viaspline.fleet.served_fleet import RELAY_S, REROUTE_S, served_along
 from viaspline.fleet.space.plan_spatial_fleet import plan_spatial_fleet
 from viaspline.fleet.still_world import without_motion
 from viaspline.fleet.swerved_fleet import swerved_fleet
@@ -150,20 +151,21 @@ def _timed(
     improving: Callable[[float], None],
 ) -> TimedFleet:  # fmt: skip
     """The robots of a fleet timed along its paths, or along others."""
-    still = without_motion(fleet)
+    still, work = without_motion(fleet), LayingWork.of(RELAY_S)
     ways = FleetWays.of(still, paths)
     if still is not fleet:
         return among_moving(
             fleet, ways,
-            lambda out: _sooner(_of_those_that_end(still, ways, out), improve, improving),
+            lambda out: _sooner(_of_those_that_end(still, ways, out, work), improve, improving),
+            work,
         )  # fmt: skip
     if _has_patrols(ways):
         timed = timed_patrols(
             ways, fleet.separation_m, periods,
-            lambda among, out: _of_those_that_end(fleet, among, out),
+            lambda among, out: _of_those_that_end(fleet, among, out, work),
         )  # fmt: skip
         return _sooner(timed, improve, improving)
-    timed = served_along(fleet, paths, WHOLE_EFFORT)
+    timed = served_along(fleet, paths, REROUTE_S, work)
     return _improved(fleet, timed, paths, improve, improving) if improve > 0.0 else timed
 
 
@@ -180,7 +182,8 @@ def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
     still = without_motion(fleet)
     ways = FleetWays.of(still, paths)
     if still is not fleet:
-        timed = among_moving(fleet, ways, lambda out: _by_priority(ways, out))
+        work = LayingWork.of(RELAY_S)
+        timed = among_moving(fleet, ways, lambda out: _by_priority(ways, out), work)
     elif _has_patrols(ways):
         timed = timed_patrols(ways, fleet.separation_m, PERIODS, _by_priority)
     else:
@@ -225,20 +228,23 @@ def _has_patrols(ways: FleetWays) -> bool:
     return any(one.mission.route.is_patrol for one in ways.members)
 
 
-def _of_those_that_end(fleet: Fleet, ways: FleetWays, left_out: dict[int, int]) -> TimedFleet:
+def _of_those_that_end(
+    fleet: Fleet, ways: FleetWays, left_out: dict[int, int], work: LayingWork
+) -> TimedFleet:
     """Robots timed where patrols have their laws already, or something moves.
 
     Args:
         fleet: What is asked for.
         ways: Of its robots.
         left_out: Robots that stand at their starts, each with one that is in its way.
+        work: What may be spent on laying robots anew.
     """
     timed = TimedFleet.by_priority(ways, left_out)
     if not timed.blocked:
         return timed
     if left_out:
         return timed.past_standing_ones(left_out)
-    timed = relaid_fleet(fleet, timed, WHOLE_EFFORT.relay) or timed
+    timed = relaid_fleet(fleet, timed, work) or timed
     return timed.past_standing_ones() if timed.blocked else timed
 
 

@@ -19,7 +19,7 @@ from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws, static_laws
 from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.held_laws import laws_hold
-from viaspline.fleet.laying.lay_round_stretch import laying_cost
+from viaspline.fleet.laying.laying_work import LayingWork
 from viaspline.fleet.laying.layings_with_room import layings_with_room
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.rides import rides_of
@@ -28,17 +28,14 @@ from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.whole_plan import fastest_law, stations
 
-PATHS_A_LAYING = 24
-"""What one laying of a robot among others that move costs, in layings of a path."""
 
-
-def relaid_fleet(fleet: Fleet, timed: TimedFleet, budget: float) -> TimedFleet | None:
+def relaid_fleet(fleet: Fleet, timed: TimedFleet, work: LayingWork) -> TimedFleet | None:
     """A fleet timed along other paths for those that are blocked.
 
     Args:
         fleet: What is asked for.
         timed: With robots that are blocked.
-        budget: What may be spent [s of the reference machine].
+        work: What may be spent.
 
     Returns:
         None where no more are served by it.
@@ -48,10 +45,9 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet, budget: float) -> TimedFleet |
     wanted = [k for k in blocked if not ways.members[k].mission.route.is_patrol]
     wanted.sort(key=lambda k: (-ways.members[k].priority, k))
     names = [ways.members[k].name for k in wanted]
+    known = dict(zip(ways.courses.names, ways.planar, strict=True))
     best: TimedFleet | None = None
-    cost = max(laying_cost(ways.planar[robot]) for robot in blocked)
-    most = int(budget / (PATHS_A_LAYING * cost))
-    for relaid in layings_with_room(fleet, fixed, names, most):
+    for relaid in layings_with_room(fleet, fixed, names, known, work):
         if len(relaid.plans) <= len(fixed):
             continue
         again = _along(fleet, ways, fixed, relaid.plans)

@@ -5,11 +5,10 @@ Tested through ``fleet/test_plan_fleet``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.laying.alone_paths import AlonePaths
+from viaspline.fleet.laying.laying_work import LayingWork
 from viaspline.fleet.led_fleet import is_dense, led_at_once, led_fleet, may_be_led_sooner
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet
@@ -17,27 +16,17 @@ from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.unserved.pair_refusal import cannot_both_be_served
 from viaspline.mission.fleet.fleet import Fleet
 
-
-@dataclass(frozen=True)
-class LadderEffort:
-    """What may be spent where priority alone leaves robots without a law.
-
-    Attributes:
-        reroute: On other paths, timed like all of them [s of the reference machine].
-        relay: On paths that are laid in space and time at once [s of the reference machine].
-    """
-
-    reroute: float
-    relay: float
+REROUTE_S, RELAY_S = 10.0, 32.0
+"""What a plan may spend where priority alone leaves robots without a law: on other paths, timed
+like all of them; and on paths that are laid in space and time at once [s of the reference machine].
+"""
+TRIAL_REROUTE_S, TRIAL_RELAY_S = 2.0, 4.0
+"""As much, to find out whether something would help [s of the reference machine]."""
 
 
-WHOLE_EFFORT = LadderEffort(10.0, 60.0)
-"""For a plan."""
-TRIAL_EFFORT = LadderEffort(2.0, 2.0)
-"""To find out whether something would help."""
-
-
-def served_fleet(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> TimedFleet:
+def served_fleet(
+    fleet: Fleet, paths: CrossingPaths, reroute: float, work: LayingWork
+) -> TimedFleet:
     """Time robots by priority; where that leaves some without a law, look for other ways.
 
     Robots that rest densely are led over a lattice at once, if all can be. Else they are timed
@@ -49,15 +38,19 @@ def served_fleet(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> Ti
     Args:
         fleet: What is asked for.
         paths: Of the very fleet.
-        effort: What may be spent.
+        reroute: What may be spent on other paths, timed like all of them [s of the reference
+            machine].
+        work: What may be spent on paths that are laid in space and time at once.
     """
     kept, led = paths.laid.kept, None
     if kept is not None and is_dense(fleet, alone := AlonePaths.of_kept(kept)):
         led = led_at_once(fleet, alone)
-    return led or served_along(fleet, paths, effort)
+    return led or served_along(fleet, paths, reroute, work)
 
 
-def served_along(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> TimedFleet:
+def served_along(
+    fleet: Fleet, paths: CrossingPaths, reroute: float, work: LayingWork
+) -> TimedFleet:
     """As ``served_fleet``, where robots aren't led over a lattice at once."""
     ways = FleetWays.of(fleet, paths)
     timed = TimedFleet.by_priority(ways)
@@ -71,8 +64,8 @@ def served_along(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> Ti
     if not timed.blocked:
         return timed
     if paths.laid.kept is not None:
-        timed = rerouted_fleet(timed, paths.laid.kept, fleet.separation_m, effort.reroute)
+        timed = rerouted_fleet(timed, paths.laid.kept, fleet.separation_m, reroute)
     pairs = timed.timing.blocked.items()
     if not all(cannot_both_be_served(fleet, timed, *pair) for pair in pairs):
-        timed = relaid_fleet(fleet, timed, effort.relay) or timed
+        timed = relaid_fleet(fleet, timed, work) or timed
     return timed.past_standing_ones() if timed.blocked else timed

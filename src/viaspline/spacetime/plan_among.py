@@ -27,14 +27,11 @@ from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_among import BUDGET_S, law_among
+from viaspline.trajectory.yielding.no_law import Unserved
 from viaspline.trajectory.yielding.waits import TrafficWait, waits
 
 MAX_PATHS = 48
 """Paths that are timed at most."""
-
-BETTER_S = 2.0
-"""Once there is a law, no more paths are tried when so much was spent [s of the reference machine].
-"""
 
 ENOUGH_SEARCHED = 2
 """After so many drives that were searched it is enough."""
@@ -107,7 +104,7 @@ class _Tried:
         if isinstance(outcome, Found):
             best = _better(problem, best, taken, outcome.value)
         if best is not None:
-            problem.budget.limit = min(problem.budget.limit, BETTER_S)
+            problem.budget.limit = min(problem.budget.limit, problem.better)
         return _Tried(
             (*self.outcomes, outcome), (*self.candidates, _candidate(taken, outcome)), best
         )
@@ -203,12 +200,22 @@ def _law(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory]:
     """The law with the earliest arrival on a path."""
     route, path = problem.mission.route, taken.solution.path
     problem.budget.spent += problem.law_s(taken.free)
+    is_one_of_many = problem.outer is not None and bool(taken.passings or taken.is_searched)
     with problem.budget.share(BUDGET_S) as budget:
         return law_among(
             path, problem.limits, problem.stops(path), moving=problem.moving,
             required=problem.required, zones=problem.mission.world.speed_zones,
             start_time=route.depart_s, hold=route.hold_s, budget=budget,
+            explained=_unexplained if is_one_of_many else Unserved.outcome,
         )  # fmt: skip
+
+
+def _unexplained(_: Unserved) -> GaveUp:
+    """That there is no law, where what would help is told of another path.
+
+    To find that out costs as much as the paths themselves where most of them have no law.
+    """
+    return GaveUp((), reason="no law was found on this path among what moves")
 
 
 def moving_proof(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCertificate:

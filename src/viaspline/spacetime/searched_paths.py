@@ -72,6 +72,8 @@ def searched_paths(problem: TimedProblem) -> Iterator[Alternative]:
     if not is_searchable(problem):
         return
     for effort in EFFORTS:
+        if not problem.affords_search(effort.states):
+            continue
         drives = _drives(problem, effort)
         if drives is None:
             continue
@@ -119,6 +121,7 @@ def _drives(problem: TimedProblem, effort: ThrustEffort) -> list[Floats] | None:
             effort.weight,
             effort.states,
         )
+        problem.count_search(found.expanded)
         if not len(found.states):
             return None
         drives.append(found.states)

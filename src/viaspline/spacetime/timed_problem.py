@@ -5,14 +5,21 @@ Tested through ``spacetime/test_plan_among``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import JERK_KNOT_S, TIME_LAW_S, WorkBudget
+from viaspline.planning.problem.work_budget import (
+    JERK_KNOT_S,
+    STATE_MOVING_S,
+    STATE_S,
+    TIME_LAW_S,
+    WorkBudget,
+)
 from viaspline.spacetime.world_squares import WorldSquares
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
@@ -22,8 +29,11 @@ from viaspline.world.world import World
 
 SQUARES = 2_500
 """About so many squares tell whether a thing closes the way."""
-AMONG_S = 4.0
-"""What may be spent on paths and laws past what moves [s of the reference machine]."""
+AMONG_S, BETTER_S = 4.0, 2.0
+"""What may be spent on paths and laws past what moves; and once there is a law, no more are tried
+when so much was spent [s of the reference machine]."""
+ONE_OF_MORE = 0.5
+"""The share of what is left that one of several searches past what moves may spend."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +48,9 @@ class TimedProblem:
         limits: Of every law.
         stops: The stops of a path.
         budget: What all paths and laws that are tried may spend together.
+        better: Once there is a law, no more are tried when so much was spent [s].
+        outer: What several problems may spend together, on what is searched as well: in places and
+            times at once, which has a limit of its own else; None where that isn't said.
     """
 
     mission: Mission
@@ -47,6 +60,31 @@ class TimedProblem:
     limits: Limits
     stops: Callable[[Path], Sequence[Station]]
     budget: WorkBudget = field(default_factory=lambda: WorkBudget(AMONG_S))
+    better: float = field(default_factory=lambda: BETTER_S)
+    outer: WorkBudget | None = None
+
+    @contextmanager
+    def within(self, outer: WorkBudget) -> Iterator[TimedProblem]:
+        """The problem as one of several that draw on one budget: there may be others to come.
+
+        Args:
+            outer: What they may spend together. It takes half of what is left of that at most.
+        """
+        with outer.share(min(AMONG_S, ONE_OF_MORE * outer.left)) as budget:
+            better = BETTER_S / AMONG_S * budget.limit
+            yield replace(self, budget=budget, better=better, outer=outer)
+
+    def affords_search(self, states: int) -> bool:
+        """Whether there is enough left to search through so many states, at most."""
+        return self.outer is None or self._search_s(states) <= self.outer.left
+
+    def count_search(self, states: int) -> None:
+        """Take off what a search through so many states has cost."""
+        if self.outer is not None:
+            self.outer.spent += self._search_s(states)
+
+    def _search_s(self, states: int) -> float:
+        return states * (STATE_S + STATE_MOVING_S * len(self.moving))
 
     @property
     def required(self) -> float:

@@ -1,19 +1,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from viaspline.errors import PlanningError
+from viaspline.fleet.laying.laying_work import LayingWork
 from viaspline.fleet.laying.relay import relay
 from viaspline.fleet.laying.relay_paths import relay_paths
-from viaspline.mission.fleet.fleet import Fleet, FleetMember
-from viaspline.planner import Plan
+from viaspline.mission.fleet.fleet import Fleet
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan, plan, plan_in
+from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.world.world import World
 
 APART = 2.0
+LAST_STEP_S = 0.5
+"""What a step that was begun may cost more than there was [s]."""
 CART = {
     "radius_m": 0.5, "clearance_m": 0.1, "max_speed_mps": 2, "max_accel_mps2": 1,
     "max_lateral_accel_mps2": 0.8,
@@ -130,11 +137,59 @@ def test_robots_in_each_others_way_are_not_laid_twice_among_the_same(
     ends = ([10, 0], [30, 0]), ([0, 0], [40, 0]), ([36, 0], [4, 0])
     laid = []
 
-    def counted(of: Fleet, member: FleetMember, among: Mapping[str, Plan]) -> Plan:
-        laid.append((member.name, frozenset(map(id, among.values()))))
-        return relay(of, member, among)
+    def counted(mission: Mission, world: World, spending: WorkBudget) -> Plan:
+        laid.append((mission, len(world)))
+        return plan_in(mission, world, spending)
 
-    monkeypatch.setattr("viaspline.fleet.laying.relay_paths.relay", counted)
+    monkeypatch.setattr("viaspline.fleet.laying.relay.plan_in", counted)
     found = relay_paths(fleet(*ends, world=world), {}, ["r0", "r1", "r2"])
     assert found.not_served
-    assert found.layings == len(laid) == len(set(laid))
+    assert len(laid) == len(set(laid)) > 3
+
+
+SWAP = ([0, 0], [30, 0]), ([30, 0], [0, 0])
+
+
+def test_what_was_laid_among_the_same_robots_costs_nothing_another_time() -> None:
+    asked, work = fleet(*SWAP), LayingWork.of(40.0)
+    first = relay_paths(asked, {}, ["r0", "r1"], work=work)
+    spent = work.budget.spent
+    again = relay_paths(asked, {}, ["r0", "r1"], work=work)
+    assert 0.0 < spent == work.budget.spent
+    assert again.plans == first.plans
+
+
+def test_robots_among_which_all_was_spent_give_up_and_are_told_what_would_help() -> None:
+    asked, work = fleet(*SWAP), LayingWork.of(0.1)
+    found = relay_paths(asked, {}, ["r0", "r1"], work=work)
+    assert not found.plans
+    assert [one.outcome for one in found.not_served] == ["gave up"] * 2
+    assert all("priority" in one.remedy for one in found.not_served)
+
+
+@settings(max_examples=10, deadline=None)
+@given(seconds=st.floats(0.0, 3.0), count=st.integers(2, 5))
+def test_a_fleet_spends_no_more_than_it_may_but_for_a_last_step(seconds: float, count: int) -> None:
+    places = on_a_circle(count, 8.0)
+    ring = fleet(*zip(places, places[1:] + places[:1], strict=True))
+    works = [LayingWork.of(seconds) for _ in range(2)]
+    names = [one.name for one in ring.members]
+    one, two = (relay_paths(ring, {}, names, work=work) for work in works)
+    assert works[0].budget.spent <= seconds + count * LAST_STEP_S
+    assert works[0].budget.spent == works[1].budget.spent
+    assert one.plans == two.plans
+    assert all(left.outcome == "gave up" for left in one.not_served)
+
+
+def test_what_a_robot_needs_beside_one_path_is_kept_on_the_next_at_once() -> None:
+    cart = {**CART, "drive": {"differential": {"track_m": 0.5}, "lag_s": 0.2}}
+    data = {"separation_m": 1.0, "robots": {"cart": CART, "driven": cart}}
+    ends = [{"name": f"r{k}", "robot": "driven", "route": {"start": a, "goal": b}}
+            for k, (a, b) in enumerate(SWAP)]  # fmt: skip
+    asked = Fleet.model_validate({**data, "fleet": ends})
+    known = {one.name: plan(one.mission) for one in asked.members}
+    found = relay_paths(asked, {}, ["r0", "r1"], known, LayingWork.of(40.0))
+    assert not found.not_served
+    assert least_distance(found.plans) >= APART
+    for name, one in found.plans.items():
+        assert one.tracking_error >= known[name].tracking_error > 0.0

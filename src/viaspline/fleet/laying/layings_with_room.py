@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from viaspline.fleet.laying.relay_paths import MAX_LAYINGS, RelaidPaths, relay_paths
+from viaspline.fleet.laying.laying_work import LayingWork
+from viaspline.fleet.laying.relay_paths import RelaidPaths, relay_paths
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 
@@ -21,22 +22,22 @@ NEXT_ROOMS_M = {(0.3, True): 0.6, (0.3, False): 0.0, (0.0, True): 0.15}
 
 
 def layings_with_room(
-    fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str], most: int | None = None
-) -> Iterator[RelaidPaths]:
+    fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str], known: Mapping[str, Plan],
+    work: LayingWork,
+) -> Iterator[RelaidPaths]:  # fmt: skip
     """What comes of laying robots anew, with one room after the other.
 
     Args:
         fleet: What is asked for.
         fixed: Plans of robots that are timed, by name, with laws by the clock of the fleet.
         names: The others that are to be served, the most important first.
-        most: How many times a robot may be laid in all; None: with each room as often as
-            ``relay_paths`` lays them.
+        known: Other plans of these, by name.
+        work: What may be spent; as long as there may be other rooms, half of it on each.
     """
     room: float | None = ROOM_M
-    left = most
-    while room is not None:
+    while room is not None and not work.is_spent:
         wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
-        relaid = relay_paths(wider, fixed, names, MAX_LAYINGS if left is None else left)
+        with work.share(2) as part:
+            relaid = relay_paths(wider, fixed, names, known, part)
         yield relaid
-        left = None if left is None else left - relaid.layings
         room = NEXT_ROOMS_M.get((room, not relaid.not_served))

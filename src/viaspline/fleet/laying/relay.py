@@ -12,12 +12,14 @@ to.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from viaspline.errors import Change, GaveUpError, GeometryError, NoPathError, PlanningError
+from viaspline.fleet.laying.lay_round_stretch import laying_cost
+from viaspline.fleet.laying.laying_work import Laid, LayingWork
 from viaspline.fleet.laying.met_on_the_way import comes_too_near
 from viaspline.fleet.laying.resting_places import RestingPlaces, rests_of
 from viaspline.fleet.laying.robot_as_obstacle import as_obstacle
@@ -26,6 +28,7 @@ from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.plan_again import plan_again
 from viaspline.planner import Plan, plan_in
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements
@@ -41,13 +44,16 @@ MAX_LOOKS = 6
 """How often a robot is laid, each time among those as well that it came too near to."""
 MOST_NEAR = 12
 """Among so many that move a robot is laid, at most."""
+RELAY_S = 20.0
+"""What laying a robot may spend where it isn't said [s of the reference machine]."""
 LEAST_OBSTACLE_M = 0.01
 """The radius of an obstacle that a robot's own clearance would make up for [m]."""
 
 
 def relay(
-    fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan], near: Collection[str] = ()
-) -> Plan:
+    fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan], near: Collection[str] = (),
+    before: Plan | None = None, work: LayingWork | None = None,
+) -> Plan:  # fmt: skip
     """Lay and time one robot's path among robots that are timed.
 
     Those that are neither timed nor this one stand at their starts as long as that is possible:
@@ -58,6 +64,8 @@ def relay(
         member: The robot.
         fixed: Plans of those that are timed, by name: with laws by the clock of the fleet.
         near: Those of them that are known to be in its way.
+        before: Another plan of the robot, if there is one.
+        work: What may be spent, and what is known; None: ``RELAY_S``.
 
     Returns:
         A plan whose law begins when the robot may depart; it may wait at its start first.
@@ -77,12 +85,15 @@ def relay(
         >>> second.path.length < 40.0, second.trajectory.end_time < 30.0
         (True, True)
     """
+    work = LayingWork.of(RELAY_S) if work is None else work
     others = {name: plan for name, plan in fixed.items() if name != member.name}
     among = [name for name in others if name in near]
     for _ in range(MAX_LOOKS):
+        if work.is_spent:
+            raise _spent(member, among)
         moving = _moving(fleet, member, {name: others[name] for name in among})
         _refuse_overrun(member, moving)
-        found = _laid(fleet, member, others, moving)
+        before = found = _laid(fleet, member, others, moving, before, work)
         met = [
             name
             for name, plan in others.items()
@@ -102,20 +113,58 @@ def relay(
     )
 
 
+def _spent(member: FleetMember, among: Sequence[str]) -> GaveUpError:
+    """The error that what could be spent on a robot is spent."""
+    past = f" past {', '.join(f'{name!r}' for name in among[:5])}" if among else ""
+    return GaveUpError(
+        f"what may be spent on its way{past} was spent before it was known",
+        where=member.mission.route.start.at,
+        remedy="give it a priority above those of the others, or let it depart later (depart_s)",
+        obstacles=among,
+        tried=("paths and waits among those that it came too near to, one look after the other",),
+    )
+
+
 def _laid(
-    fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan], moving: tuple[Obstacle, ...]
-) -> Plan:
+    fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan], moving: tuple[Obstacle, ...],
+    before: Plan | None, work: LayingWork,
+) -> Plan:  # fmt: skip
     """A robot's path and law among some that move, and those that stand at their starts."""
     mission, world = in_order(member.mission)
     rests = _standing(fleet, member, fixed)
     among = _among(mission, member, moving, fixed)
+
+    def planned(around: RestingPlaces) -> Plan:
+        there = _with_discs(world, fleet, member, around) if around.places else world
+        return _as_asked(_planned(among, there, around, before, work), mission, world)
+
     if rests.places:
         try:
-            found = plan_in(among, _with_discs(world, fleet, member, rests))
-            return _as_asked(found, mission, world)
+            return planned(rests)
         except (PlanningError, GeometryError):
             pass  # somebody who stands in the way now may have left by then
-    return _as_asked(plan_in(among, world), mission, world)
+    return planned(RestingPlaces(()))
+
+
+def _planned(
+    mission: Mission, world: World, rests: RestingPlaces, before: Plan | None, work: LayingWork
+) -> Plan:
+    """The plan of a mission among what moves, with rests in its world; or the one made before."""
+
+    def lay() -> Laid:
+        try:
+            if before is None:
+                return plan_in(mission, world, work.budget)
+            work.budget.spent += laying_cost(before)
+            return plan_again(before, mission, world, work.budget)
+        except (PlanningError, GeometryError) as error:
+            return error
+
+    known = None if before is None else (before.mission.robot, before.tracking_error)
+    found = work.once((mission, rests.places, known), lay)
+    if isinstance(found, Plan):
+        return found
+    raise found.with_traceback(None)
 
 
 def _needed(fleet: Fleet, member: FleetMember, reach: float) -> float:

@@ -8,9 +8,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from viaspline.errors import GeometryError, PlanningError
-from viaspline.fleet.laying.relay import relay
+from viaspline.fleet.laying.laying_work import Laid, LayingWork
+from viaspline.fleet.laying.relay import RELAY_S, relay
 from viaspline.fleet.not_served import NotServed, not_served
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
@@ -19,7 +21,7 @@ MAX_TURNS = 3
 """How often a robot that finds no path is laid before those that are in its way."""
 
 MAX_LAYINGS = 200
-"""How many times a robot is laid."""
+"""How many times it is a robot's turn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,27 +31,28 @@ class RelaidPaths:
     Attributes:
         plans: Of all robots that are served, by name, with laws by the clock of the fleet.
         not_served: Those that are to be served and are not.
-        layings: How many times a robot was laid.
     """
 
     plans: dict[str, Plan]
     not_served: tuple[NotServed, ...] = ()
-    layings: int = 0
 
 
 def relay_paths(
-    fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str], layings: int = MAX_LAYINGS
-) -> RelaidPaths:
+    fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str],
+    known: Mapping[str, Plan] = MappingProxyType({}), work: LayingWork | None = None,
+) -> RelaidPaths:  # fmt: skip
     """Lay and time robots one after the other, each among all that are timed by then.
 
     Who finds no path because of one that is timed goes first, and that one is laid anew after it.
-    The most robots that were served at once are what is handed back.
+    Each may spend the same share of what is left, and the most robots that were served at once are
+    what is handed back.
 
     Args:
         fleet: What is asked for.
         fixed: Plans of robots that are timed, by name, with laws by the clock of the fleet.
         names: The others that are to be served, the most important first.
-        layings: How many times a robot may be laid.
+        known: Other plans of these, by name, as far as there are any.
+        work: What may be spent, and what is known; None: ``RELAY_S`` for each of them.
 
     Example:
         >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
@@ -64,14 +67,12 @@ def relay_paths(
     waiting = list(names)
     failed: dict[str, NotServed] = {}
     turns: Counter[str] = Counter()
-    spent = 0
-    laid: dict[tuple[str, frozenset[int]], Plan | PlanningError | GeometryError] = {}
-    while waiting and spent < layings:
-        name = waiting.pop(0)
-        among = name, frozenset(map(id, plans.values()))
-        if among not in laid:  # who is in each other's way takes turns: the same comes up again
-            laid[among], spent = _laid_or_not(fleet, members[name], plans), spent + 1
-        found = laid[among]
+    work = LayingWork.of(RELAY_S * len(names)) if work is None else work
+    rounds = 0
+    while waiting and rounds < MAX_LAYINGS:
+        name, rounds = waiting.pop(0), rounds + 1
+        with work.share(len(waiting) + 1) as part:
+            found = _laid_or_not(fleet, members[name], plans, known.get(name), part)
         if isinstance(found, Plan):
             plans = {**plans, name: found}
         else:
@@ -84,15 +85,16 @@ def relay_paths(
         if len(plans) > len(best):
             best = plans
     asked = [key for key in members if key in {*fixed, *names} and key not in best]
-    return RelaidPaths(best, tuple(failed.get(key) or _unlaid(key) for key in asked), spent)
+    return RelaidPaths(best, tuple(failed.get(key) or _unlaid(key) for key in asked))
 
 
 def _laid_or_not(
-    fleet: Fleet, member: FleetMember, plans: Mapping[str, Plan]
-) -> Plan | PlanningError | GeometryError:
+    fleet: Fleet, member: FleetMember, plans: Mapping[str, Plan], before: Plan | None,
+    work: LayingWork,
+) -> Laid:  # fmt: skip
     """A robot laid among those that are timed, or why it can't be."""
     try:
-        return relay(fleet, member, plans)
+        return relay(fleet, member, plans, (), before, work)
     except (PlanningError, GeometryError) as error:
         return error
 

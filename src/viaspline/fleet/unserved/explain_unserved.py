@@ -12,9 +12,10 @@ from __future__ import annotations
 from viaspline.errors import ViasplineError
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.laying.lay_round_stretch import laying_cost
+from viaspline.fleet.laying.laying_work import LayingWork
 from viaspline.fleet.not_served import NotServed, Outcome
 from viaspline.fleet.rerouted_fleet import BOXES_A_S
-from viaspline.fleet.served_fleet import TRIAL_EFFORT, served_fleet
+from viaspline.fleet.served_fleet import TRIAL_RELAY_S, TRIAL_REROUTE_S, served_fleet
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.unserved.blocked_stretch import blocked_stretches
 from viaspline.fleet.unserved.fleet_changes import FleetChange, fleet_changes
@@ -87,7 +88,9 @@ def _explained(
             remedy = f"move '{names[other]}' out of the way, or leave it out (this wasn't tried)"
             break
         if change.words not in tried:
-            tried[change.words] = _served_with(change, fleet, paths)
+            work = LayingWork.of(min(TRIAL_RELAY_S, budget - spent))
+            tried[change.words] = _served_with(change, fleet, paths, work)
+            spent += work.budget.spent
         kept = {one.name for one in change.fleet.members}
         if (served & kept) | {names[robot]} <= tried[change.words]:
             remedy = change.words
@@ -106,11 +109,13 @@ def _trial_cost(timed: TimedFleet) -> float:
     return TRIAL_S + laying + len(timed.ways.crossings.packed.cell) / BOXES_A_S
 
 
-def _served_with(change: FleetChange, fleet: Fleet, paths: CrossingPaths) -> frozenset[str]:
-    """The robots that are served with a change."""
+def _served_with(
+    change: FleetChange, fleet: Fleet, paths: CrossingPaths, work: LayingWork
+) -> frozenset[str]:
+    """The robots that are served with a change, if so much may be spent on laying them anew."""
     try:
         then = crossing_paths(change.fleet, before=_reusable(change, fleet, paths))
-        tried = served_fleet(change.fleet, then, TRIAL_EFFORT)
+        tried = served_fleet(change.fleet, then, TRIAL_REROUTE_S, work)
     except ViasplineError:
         return frozenset()
     return frozenset(tried.ways.courses.names) - frozenset(tried.blocked)

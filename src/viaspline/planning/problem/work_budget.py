@@ -64,6 +64,9 @@ JERK_KNOT_S = 3e-5
 TIME_LAW_S, JERK_LAW_S, LAW_AMONG_S = 1e-3, 1.5e-2, 8e-3
 """Of a time law, of one with a limit of the jerk, and of one past what moves [s]."""
 
+STATE_S, STATE_MOVING_S = 5e-6, 8e-6
+"""Of a state of a search over places and times: in all, and for each thing that moves [s]."""
+
 DRIVE_AHEAD_S, DRIVE_AHEAD_SECOND_S = 5e-4, 7e-5
 """Of a drive ahead along a new path: to begin one, and for each second that it takes [s]."""
 
