@@ -31,12 +31,6 @@ ENDLESS = (
 )
 """Said of a patrol among things that move."""
 
-ALL_SPENT = (
-    "what may be spent on ways past what moves was spent on other robots of the fleet",
-    "give it a priority above theirs, let it depart at another time, or plan fewer robots at once",
-)
-"""Said of a robot for which nothing was left."""
-
 Serve = Callable[[dict[int, int]], TimedFleet]
 """Times robots as if nothing moved, but for those that stand at their starts."""
 
@@ -103,8 +97,6 @@ def _relaid(
     fixed = {name: plan for name, plan in plans.items() if name not in met}
     ranks = {one.name: one.priority for one in timed.ways.members}
     names = sorted(met, key=lambda name: -ranks[name])
-    if work.is_spent:
-        return dict.fromkeys(names, ALL_SPENT)
     failed: dict[str, tuple[str, str]] = {}
     known = dict(zip(timed.ways.courses.names, timed.ways.planar, strict=True))
     for found in layings_with_room(fleet, fixed, names, known, work):

@@ -193,3 +193,12 @@ def test_what_a_robot_needs_beside_one_path_is_kept_on_the_next_at_once() -> Non
     assert least_distance(found.plans) >= APART
     for name, one in found.plans.items():
         assert one.tracking_error >= known[name].tracking_error > 0.0
+
+
+def test_who_was_laid_before_all_was_spent_is_still_served_by_that() -> None:
+    asked, work = fleet(*SWAP), LayingWork.of(40.0)
+    first = relay_paths(asked, {}, ["r0", "r1"], work=work)
+    work.budget.spent = work.budget.limit
+    again = relay_paths(asked, {}, ["r0", "r1"], work=work)
+    assert not again.not_served
+    assert again.plans == first.plans

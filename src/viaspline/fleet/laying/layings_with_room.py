@@ -32,10 +32,11 @@ def layings_with_room(
         fixed: Plans of robots that are timed, by name, with laws by the clock of the fleet.
         names: The others that are to be served, the most important first.
         known: Other plans of these, by name.
-        work: What may be spent; as long as there may be other rooms, half of it on each.
+        work: What may be spent, half of what is left with each room; where nothing is, what was
+            laid before is still known.
     """
     room: float | None = ROOM_M
-    while room is not None and not work.is_spent:
+    while room is not None:
         wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
         with work.share(2) as part:
             relaid = relay_paths(wider, fixed, names, known, part)

@@ -12,7 +12,7 @@ to.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -89,8 +89,6 @@ def relay(
     others = {name: plan for name, plan in fixed.items() if name != member.name}
     among = [name for name in others if name in near]
     for _ in range(MAX_LOOKS):
-        if work.is_spent:
-            raise _spent(member, among)
         moving = _moving(fleet, member, {name: others[name] for name in among})
         _refuse_overrun(member, moving)
         before = found = _laid(fleet, member, others, moving, before, work)
@@ -113,14 +111,12 @@ def relay(
     )
 
 
-def _spent(member: FleetMember, among: Sequence[str]) -> GaveUpError:
+def _spent(mission: Mission) -> GaveUpError:
     """The error that what could be spent on a robot is spent."""
-    past = f" past {', '.join(f'{name!r}' for name in among[:5])}" if among else ""
     return GaveUpError(
-        f"what may be spent on its way{past} was spent before it was known",
-        where=member.mission.route.start.at,
+        "what may be spent on its way was spent before it was known",
+        where=mission.route.start.at,
         remedy="give it a priority above those of the others, or let it depart later (depart_s)",
-        obstacles=among,
         tried=("paths and waits among those that it came too near to, one look after the other",),
     )
 
@@ -152,6 +148,8 @@ def _planned(
     """The plan of a mission among what moves, with rests in its world; or the one made before."""
 
     def lay() -> Laid:
+        if work.is_spent:
+            return _spent(mission)
         try:
             if before is None:
                 return plan_in(mission, world, work.budget)
