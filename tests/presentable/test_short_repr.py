@@ -103,3 +103,13 @@ def test_all_that_a_plan_and_a_run_hand_out_is_told_in_a_line_or_ten() -> None:
     kinds = {type(one).__name__ for one in found}
     assert {"Plan", "Run", "Certificate", "MovingCertificate", "FleetPlan"} <= kinds
     assert {type(one).__name__ for one in found if not is_short(one)} == set()
+
+
+def test_what_a_plan_went_through_is_told_in_a_line_or_ten() -> None:
+    made = vs.plan(EXAMPLES / "fig7-obstacles.yaml")
+    account = made.account
+    parts = [account, *account.passed.values()]
+    parts += [part for one in account.passed.values() for part in vars(one).values()]
+    parts = [part for part in parts if type(part).__module__.startswith("viaspline")]
+    assert len(parts) > 3
+    assert {type(one).__name__ for one in parts if not is_short(one)} == set()

@@ -14,6 +14,7 @@ from viaspline.planning.alternatives.leg_search import Curve, LegSearch
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.planning.routing.side_barrier import Barriers
 from viaspline.planning.routing.taut_path import TautPath
+from viaspline.presentable.told_in_lines import told_in_lines
 
 SIDES: tuple[Side, Side] = ("left", "right")
 NOT_WEIGHED = "where much stands around, the shortest way is taken if it loses little to its bends"
@@ -53,6 +54,7 @@ class Met:
         return "right" if taut_path.crosses(self.barriers.right) else "left"
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class Comparison:
     """A leg, what it met and the curves past that.

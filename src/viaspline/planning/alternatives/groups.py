@@ -24,6 +24,7 @@ from viaspline.planning.problem.method import Found, Outcome
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.planning.routing.taut_path import TautPath
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.world.world import World
 
 FEW_GROUPS = 4  # on a leg, up to which the ways on either side are always sought
@@ -42,6 +43,7 @@ class Group(Met):
     indices: tuple[int, ...]
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class GroupsInTheWay:
     """The groups that a leg was led round; see ``InTheWay``.

@@ -20,9 +20,11 @@ from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import NO_BARRIERS
 from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.taut_path import TautPath
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.world.world import World
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class Curve:
     """A curve along a taut path, and what it costs.
@@ -42,6 +44,7 @@ class Curve:
     whole_cost: float | None = None
 
 
+@told_in_lines
 @dataclass(frozen=True, kw_only=True)
 class Spline(Curve):
     """The spline that was fitted to a taut path.

@@ -15,6 +15,7 @@ from viaspline.planning.alternatives.comparison import Comparison, Met
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite, reason_of
 from viaspline.planning.problem.method import Outcome
 from viaspline.planning.routing.taut_path import TautPath
+from viaspline.presentable.told_in_lines import told_in_lines
 
 
 class InTheWay(Protocol):
@@ -69,6 +70,7 @@ class OtherWay:
     reason: str
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class PassedLeg:
     """A leg past what it meets.

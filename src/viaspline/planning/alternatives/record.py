@@ -22,9 +22,11 @@ from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.world.world import World
 
 
+@told_in_lines
 @dataclass(frozen=True)
 class Account:
     """What a search did, leg by leg.
