@@ -21,7 +21,7 @@ from viaspline.planning.turning.turn_path import RAMP
 
 @dataclass(frozen=True)
 class HybridAStar:
-    """Searches poses forwards and backwards between the via points.
+    """Searches poses between the via points, forwards and in doubt backwards.
 
     Where it has seen everything at its finest resolution, it proves that there is no path with
     turns of that radius. For a robot without a turning circle that is no proof: it may turn more

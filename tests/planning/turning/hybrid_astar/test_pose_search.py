@@ -16,7 +16,6 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError, WorkBudget
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     SEARCH_EFFORTS,
-    find_poses,
     pose_problems,
 )
 from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
@@ -45,6 +44,13 @@ def open_world():
 @kernel
 def dubins_length(dx, dy, start, goal, rho):
     return dubins.dubins_length(dx, dy, start, goal, rho)
+
+
+def find_poses(world, requirements, rho, ramp, start, goal, efforts=SEARCH_EFFORTS):
+    """The one chain of a row of two places, or why there is none."""
+    lots = WorkBudget(math.inf)
+    found = find_row(world, requirements, rho, ramp, [start], [goal], lots, efforts)
+    return found if isinstance(found, NotFound) else found[0]
 
 
 def box(x0, y0, x1, y1):

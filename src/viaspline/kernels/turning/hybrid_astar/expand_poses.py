@@ -21,7 +21,7 @@ from viaspline.kernels.heap import pop
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.collision_cache import CollisionCache, looked_at, reach
 from viaspline.kernels.turning.connect import MAX_SEGMENTS
-from viaspline.kernels.turning.hybrid_astar.goal_arrival import arrive, meet
+from viaspline.kernels.turning.hybrid_astar.goal_arrival import arrive
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     CLOSED,
     COST,
@@ -53,7 +53,7 @@ from viaspline.kernels.turning.hybrid_astar.primitives import (
     MotionPrimitives,
 )
 
-RUNNING, FULL, EMPTY, BEATEN = range(4)
+RUNNING, FULL, EMPTY = range(3)
 
 
 @kernel
@@ -72,7 +72,6 @@ def set_off(
     for k in range(search.headings.size):
         search.arrivals[k, LENGTH] = np.inf
         search.ends[k] = NO_NODE
-    search.meeting[LENGTH] = np.inf
     for k in range(starts.shape[0]):
         x, y, heading = starts[k, 0], starts[k, 1], starts[k, 2]
         scale = scale_at(cache, search, x, y, heading)
@@ -141,8 +140,8 @@ def _done(cache: CollisionCache, search: PoseSearch) -> int:
 
 @kernel
 def go_on(
-    cache: CollisionCache, moves: MotionPrimitives, search: PoseSearch, other: PoseSearch,
-    ahead: Ahead, quota: int, effort: int, bound: float,
+    cache: CollisionCache, moves: MotionPrimitives, search: PoseSearch, ahead: Ahead, quota: int,
+    effort: int,
 ) -> int:  # fmt: skip
     """Expand some nodes.
 
@@ -150,16 +149,14 @@ def go_on(
         cache: Ground.
         moves: Moves.
         search: Search, written in place.
-        other: One that comes the other way.
         ahead: Ahead.
-        quota: How many nodes at most; it also ends with an arrival or a meeting.
+        quota: How many nodes at most; it also ends with an arrival.
         effort: How many distances are reckoned, connections tried and moves done in all: it ends
             with the node in which that becomes more.
-        bound: Arrivals as long as this don't count [m].
 
     Returns:
         RUNNING: there are more; FULL: there is no room for more; EMPTY: everything that can be
-        reached has been; BEATEN: what is left is no better than the bound.
+        reached has been.
     """
     segments = np.empty((MAX_SEGMENTS, 3))
     last = _done(cache, search) + effort
@@ -170,12 +167,9 @@ def go_on(
             return RUNNING
         if search.counts[NODES] + WAYS > search.nodes.shape[0]:
             return FULL
-        key = search.heap.keys[0]
         node = pop(search.heap)
         if search.links[node, CLOSED] != 0:
             continue
-        if key >= bound:
-            return BEATEN
         search.links[node, CLOSED] = 1
         row = search.nodes[node]
         if search.cells[search.links[node, SLOT]] - 1 != node:
@@ -184,12 +178,10 @@ def go_on(
         _expand(cache, moves, search, ahead, node)
         if search.links[node, LEVEL] != LEVELS // 2:
             continue
-        if meet(cache, moves, search, other, node, segments):
-            return RUNNING
         every = 1 + int(row[STILL] / moves.sizes[0])  # the farther, the less it is worth a try
         if search.counts[EXPANDED] % every > 1:
             continue
-        if arrive(cache, moves, search, node, bound, segments):
+        if arrive(cache, moves, search, node, segments):
             return RUNNING
     return RUNNING
 

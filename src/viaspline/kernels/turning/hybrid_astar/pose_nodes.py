@@ -25,8 +25,8 @@ LEVEL, PARENT, CLOSED, SLOT, SCALE = range(5)
 # columns of the scales of a search
 SIDE, AROUND, ROOM = range(3)
 WITHIN, MORE = range(2)
-# columns of an arrival, and of its links
-LENGTH, FIRST, SECOND, HERE, THERE = range(5)
+# columns of an arrival
+LENGTH, FIRST, SECOND = range(3)
 # counters: nodes, expanded ones, moves that left the window, connections that were tried
 NODES, EXPANDED, OUTSIDE, TRIED = range(4)
 
@@ -51,8 +51,6 @@ class PoseSearch(NamedTuple):
         headings: Those that are allowed there [rad], NaN for whichever comes straight, (h,).
         arrivals: The best with each heading: whole length, sides of the two turns, (h, 3).
         ends: The node from which it was reached, (h,).
-        meeting: The best way to what another search has found: whole length, sides of the two
-            turns between the two nodes, and these, (5,).
     """
 
     window: Floats
@@ -69,7 +67,6 @@ class PoseSearch(NamedTuple):
     headings: Floats
     arrivals: Floats
     ends: Ints
-    meeting: Floats
 
 
 class Ahead(NamedTuple):

@@ -1,8 +1,8 @@
 """Ways through tight space for robots with a turning circle: the last resort of a planner.
 
-What is between places is searched for with poses, forwards from the start and backwards from the
-goal in turns, until the two of them know: one has found the other's end, or has seen everything
-that it can reach. What is found is shortened and laid as spans.
+What is between places is searched for with poses, forwards from the start, and in doubt backwards
+from the goal, to see whether it can be come to at all. What is found is shortened, and laid as
+spans.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE, Ahead
 from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
 from viaspline.kernels.turning.segment_chain import chain_spans, merged
@@ -30,17 +29,13 @@ from viaspline.planning.turning.hybrid_astar.narrow_places import Passage, passa
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
-    NotFound,
     Pose,
-    Reason,
 )
-from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree, backwards, bridged, met
+from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree
 from viaspline.planning.turning.hybrid_astar.search_window import Body, SearchWindow, search_areas
 from viaspline.planning.turning.hybrid_astar.shortcut_search import ShortcutSearch
 from viaspline.world.world import World
 
-FIRST_BRIDGE_STATES = 1000  # after which a bridge is tried,
-BRIDGE_ENDS = 24  # between so many states of either search
 SHARE_AFTER_ARRIVAL = 0.25  # of states, that is looked at then; see ``SearchTree``
 HEADING_SECTORS = 16  # headings that are tried where any is allowed
 
@@ -95,18 +90,14 @@ class PoseProblem:
         """This problem with segments that the reference point must not cross [m], (b, 4)."""
         return replace(self, search_window=self.search_window.closed_by(barriers))
 
-    def go_on(self, tree: SearchTree, other: SearchTree | None = None) -> None:
+    def go_on(self, tree: SearchTree) -> None:
         """Let a search look at some more states, when what they cost has been taken off.
-
-        Args:
-            tree: The search.
-            other: One that comes the other way.
 
         Raises:
             SpentBudgetError: When less is left.
         """
         self.requirements.spend_on_part(POSES_EFFORT_S * tree.effort)
-        tree.go_on(other)
+        tree.go_on()
 
     def forwards(
         self, starts: Floats, goal: Goal, headings: Floats, after: float = SHARE_AFTER_ARRIVAL
@@ -181,46 +172,6 @@ def prepare_body(requirements: Requirements) -> None:
         Body.of(requirements, effort.overhang)
 
 
-def find_poses(
-    world: World,
-    requirements: Requirements,
-    rho: float,
-    ramp: float,
-    start: Pose,
-    goal: Goal,
-    efforts: Sequence[Effort] = SEARCH_EFFORTS,
-) -> Chain | NotFound:
-    """A way from a pose to a place, forwards, with continuous curvature of at most 1 / rho.
-
-    Args:
-        world: What to keep clear of.
-        requirements: The body and what it keeps.
-        rho: The least radius [m].
-        ramp: Length on which the curvature rises from 0 to 1 / rho [m]; half of it, but not less
-            than a twelfth of rho, where nothing is found otherwise.
-        start: Where it begins.
-        goal: Where it ends.
-        efforts: How finely and how long is looked, one after the other.
-
-    Returns:
-        A chain whose discs (see ``disc_cover``) are clear; or why there is none.
-    """
-    places = np.array([[start.x, start.y], [goal.x, goal.y]])
-    expanded, reasons = 0, [Reason.BUDGET] * len(efforts)
-    for number, effort in (*enumerate(first_looks(efforts)), *enumerate(efforts)):
-        if reasons[number].is_proof:
-            continue
-        for problem in pose_problems(world, requirements, rho, ramp, places, effort):
-            found, is_cut = _one_way(problem, start, goal)
-            expanded += found.expanded
-            if isinstance(found, Chain):
-                return replace(found, expanded=expanded)
-            reasons[number] = found.reason
-            if not is_cut:
-                break
-    return NotFound(reasons[-1], 0, expanded)
-
-
 def pose_problems(
     world: World,
     requirements: Requirements,
@@ -263,45 +214,6 @@ def _with_narrow_gaps(window: SearchWindow, requirements: Requirements) -> Searc
     return replace(window, narrow_gaps=requirements.once(asked, told))
 
 
-def _one_way(problem: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | NotFound, bool]:
-    """The way in one window, or why there is none and whether a greater window may have one."""
-    headings = headings_at(problem, goal)
-    if not problem.search_window.has_room(start.x, start.y, start.heading):
-        return NotFound(Reason.START_TAKEN), False
-    if not len(headings):
-        return NotFound(Reason.GOAL_TAKEN), False
-    to = headings if goal.headings else np.append(headings, math.nan)
-    begin = np.array([[start.x, start.y, start.heading, 0.0]])
-    both = (problem.forwards(begin, goal, to), problem.backwards(start, goal, headings))
-    bridge, due = None, FIRST_BRIDGE_STATES
-    while bridge is None and not any(tree.is_over for tree in both):
-        for tree, other in (both, both[::-1]):
-            problem.go_on(tree, other)
-        if both[0].expanded >= due and not any(tree.has_arrived for tree in both):
-            bridge, due = bridged(*both, BRIDGE_ENDS), 2 * due
-    expanded = sum(tree.expanded for tree in both)
-    taut_paths = [
-        (taut_path.cost, taut_path.segments, taut_path.heading)
-        for taut_path in both[0].arrivals()[:1]
-    ]
-    taut_paths += [
-        (taut_path.cost, backwards(taut_path.segments), float(headings[taut_path.start]))
-        for taut_path in both[1].arrivals()[:1]
-    ]
-    taut_paths += [
-        (taut_path.cost, taut_path.segments, float(headings[taut_path.start]))
-        for taut_path in (bridge, met(*both))
-        if taut_path is not None
-    ]
-    if not taut_paths:
-        return _failure(both, problem.search_window.area.is_whole, expanded)
-    _, segments, heading = min(taut_paths, key=lambda taut_path: taut_path[0])
-    free = math.nan if not goal.headings else heading
-    end = np.array([goal.x, goal.y, free])
-    asked = (problem.search_window.world, start, goal, problem.moves.sizes.tobytes())
-    return finished(problem, start, end, segments, expanded, asked), False
-
-
 def headings_at(problem: PoseProblem, goal: Goal, sectors: int = HEADING_SECTORS) -> Floats:
     """The headings with which the body may stand at a goal, of those that are tried.
 
@@ -312,16 +224,6 @@ def headings_at(problem: PoseProblem, goal: Goal, sectors: int = HEADING_SECTORS
     """
     headings = np.array(goal.headings or np.arange(sectors) * (2.0 * math.pi / sectors))
     return headings[[problem.search_window.has_room(goal.x, goal.y, each) for each in headings]]
-
-
-def _failure(both: Sequence[SearchTree], is_whole: bool, expanded: int) -> tuple[NotFound, bool]:
-    forward, backward = both
-    if forward.state == EMPTY and is_whole:
-        return NotFound(Reason.START_SHUT_IN, 0, expanded), False
-    if backward.state == EMPTY and is_whole:
-        return NotFound(Reason.GOAL_SHUT_IN, 0, expanded), False
-    is_cut = EMPTY in (forward.state, backward.state)
-    return NotFound(Reason.BUDGET, 0, expanded), is_cut
 
 
 def turn_of(segments: Floats) -> float:

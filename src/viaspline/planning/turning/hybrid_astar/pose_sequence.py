@@ -47,13 +47,14 @@ def find_row(
     efforts: Sequence[Effort] = SEARCH_EFFORTS,
     barriers: Sequence[Floats] = (),
 ) -> tuple[Chain, ...] | NotFound:
-    """Ways from a pose through a row of places, one after the other; see ``find_poses``.
+    """Ways from a pose through a row of places, forwards, with continuous curvature.
 
     Args:
         world: What to keep clear of.
         requirements: The body and what it keeps.
         rho: The least radius [m].
-        ramp: Length on which the curvature rises from 0 to 1 / rho [m].
+        ramp: Length on which the curvature rises from 0 to 1 / rho [m]; less, but not below
+            ``LEAST_SEARCH_RAMP``, where an effort says so.
         starts: Where the first may begin: poses at one place.
         goals: Where they end.
         budget: What may be spent on poses; once it is, the search gives up.
@@ -62,9 +63,10 @@ def find_row(
             at all if it is empty.
 
     Returns:
-        A chain for every goal, each beginning with the pose in which the one before ends; or why
-        there are none. From every place only the shortest arrivals with different headings are
-        followed on; that there is no way is said only where those were all.
+        A chain for every goal, whose discs (see ``disc_cover``) are clear, each beginning with the
+        pose in which the one before ends; or why there are none. From every place only the
+        shortest arrivals with different headings are followed on; that there is no way is said
+        only where those were all.
     """
     row = _Row(world, requirements, rho, ramp, tuple(starts), tuple(goals), budget, tuple(barriers))
     failed, expanded = [NotFound(Reason.BUDGET)] * len(efforts), 0

@@ -6,7 +6,6 @@ Tested through ``planning/turning/hybrid_astar/test_pose_search``.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
 from typing import TypeVar
@@ -14,28 +13,24 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.heap import Heap
 from viaspline.kernels.turning.collision_cache import CollisionCache
 from viaspline.kernels.turning.hybrid_astar import expand_poses as kernels
-from viaspline.kernels.turning.hybrid_astar.goal_arrival import bridge, connected
+from viaspline.kernels.turning.hybrid_astar.goal_arrival import connected
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     CELL_SHARE,
     EXPANDED,
-    HERE,
-    LEVEL,
     NODES,
-    THERE,
     Ahead,
     PoseSearch,
 )
-from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, STEP, MotionPrimitives
+from viaspline.kernels.turning.hybrid_astar.primitives import STEP, MotionPrimitives
 from viaspline.planning.turning.hybrid_astar.search_window import SearchWindow
 
 FIRST_SLICE, SLICE = 1000, 2500  # efforts between which a search can be stopped
 MOST_STATES = 1 << 40  # more than any search has
 LEAST_STATES_BEFORE = 800  # that count as those before the first arrival
-MAX_SPREAD_STATES = 3000  # of which some are chosen
 
 Number = TypeVar("Number", np.float64, np.int64)
 
@@ -90,7 +85,6 @@ class SearchTree:
         self.cache, self.moves = cache, moves
         self.ahead = ahead
         self.search = _empty(search_window, moves, starts, goal, headings, room)
-        self._nobody = _empty(search_window, moves, starts, goal, headings, 1)
         self.state = kernels.RUNNING
         self.effort = FIRST_SLICE
         self._until = math.inf
@@ -109,7 +103,7 @@ class SearchTree:
         heap = Heap(_begun(keys, waiting), _begun(nodes, waiting), size.copy())
         fields = search._asdict() | {"heap": heap}
         fields |= {name: _begun(fields[name], count) for name in ("nodes", "links")}
-        whole = ("keys", "cells", "counts", "arrivals", "ends", "meeting")
+        whole = ("keys", "cells", "counts", "arrivals", "ends")
         fields |= {name: fields[name].copy() for name in whole}
         tree.search = PoseSearch(**fields)
         return tree
@@ -126,23 +120,15 @@ class SearchTree:
 
     @property
     def has_arrived(self) -> bool:
-        """Whether it has come to the goal, or to what another search has found."""
-        return bool((self.search.ends >= 0).any() or math.isfinite(self.search.meeting[0]))
+        """Whether it has come to the goal."""
+        return bool((self.search.ends >= 0).any())
 
-    def go_on(self, other: SearchTree | None = None, bound: float = math.inf) -> None:
-        """Look at some more states.
-
-        Args:
-            other: A search that comes the other way.
-            bound: Only shorter arrivals count [m].
-        """
+    def go_on(self) -> None:
+        """Look at some more states."""
         effort, quota = self.effort, int(min(self._until, MOST_STATES)) - self.expanded
         self.effort = min(2 * effort, SLICE)
         had = self.has_arrived
-        opposite = self._nobody if other is None else other.search
-        self.state = kernels.go_on(
-            self.cache, self.moves, self.search, opposite, self.ahead, quota, effort, float(bound)
-        )
+        self.state = kernels.go_on(self.cache, self.moves, self.search, self.ahead, quota, effort)
         if self.has_arrived and not had:
             self._until = self.expanded + math.ceil(
                 self._after * (self.expanded + LEAST_STATES_BEFORE)
@@ -162,79 +148,6 @@ class SearchTree:
             )
             found.append(Arrival(int(start), goal, cost, np.concatenate((segments, last))))
         return sorted(found, key=lambda arrival: arrival.cost)
-
-    def spread_out(self, count: int) -> Ints:
-        """Some states without curvature, as far from each other as may be: the farthest first.
-
-        Args:
-            count: How many at most.
-        """
-        size = int(self.search.counts[NODES])
-        level = self.search.links[:size, LEVEL]
-        nodes = np.flatnonzero(level == LEVELS // 2)
-        nodes = nodes[:: 1 + len(nodes) // MAX_SPREAD_STATES]
-        x, y, heading = self.search.nodes[nodes, :3].T
-        rho = self.moves.sizes[0]
-        states = np.column_stack((x / rho, y / rho, np.cos(heading), np.sin(heading)))
-        gaps = np.full(len(nodes), math.inf)
-        chosen = [0]
-        for _ in range(min(count, len(nodes)) - 1):
-            gaps = np.minimum(gaps, ((states - states[chosen[-1]]) ** 2).sum(axis=1))
-            chosen.append(int(np.argmax(gaps)))
-        return np.asarray(nodes[chosen], np.int64)
-
-
-@dataclass(frozen=True)
-class Bridge:
-    """A way from the start of one search to that of another, which came backwards.
-
-    Attributes:
-        cost: Its length [m].
-        start: Number of the start of the search that came backwards.
-        segments: See ``kernels.turning.collision_cache``, (n, 3).
-    """
-
-    cost: float
-    start: int
-    segments: Floats
-
-
-def bridged(there: SearchTree, back: SearchTree, count: int) -> Bridge | None:
-    """Connect ``count`` states of either search; None if no two of them can be."""
-    out, home = there.spread_out(count), back.spread_out(count)
-    cost, first, last, s1, s2 = bridge(
-        there.cache, there.moves, there.search, back.search, out, home
-    )
-    return None if first < 0 else _bridge(there, back, (cost, s1, s2, first, last))
-
-
-def met(there: SearchTree, back: SearchTree) -> Bridge | None:
-    """The best way on which one of two searches has met the other, None if neither has."""
-    taut_paths = []
-    if math.isfinite(there.search.meeting[0]):
-        taut_paths.append(_bridge(there, back, there.search.meeting))
-    if math.isfinite(back.search.meeting[0]):
-        home = _bridge(back, there, back.search.meeting)
-        _, start = kernels.path_to(back.moves, back.search, int(back.search.meeting[HERE]))
-        taut_paths.append(Bridge(home.cost, int(start), backwards(home.segments)))
-    return min(taut_paths, key=lambda taut_path: taut_path.cost, default=None)
-
-
-def _bridge(there: SearchTree, back: SearchTree, meeting: Sequence[float] | Floats) -> Bridge:
-    """The way over a meeting, see ``kernels.pose_nodes.PoseSearch``."""
-    cost, s1, s2 = (float(value) for value in meeting[:3])
-    first, last = int(meeting[HERE]), int(meeting[THERE])
-    x, y, heading = there.search.nodes[first, :3].tolist()
-    to_x, to_y, turned = back.search.nodes[last, :3].tolist()
-    before, _ = kernels.path_to(there.moves, there.search, first)
-    after, start = kernels.path_to(back.moves, back.search, last)
-    between = connected(there.moves, to_x - x, to_y - y, heading, turned + math.pi, s1, s2)
-    return Bridge(cost, int(start), np.concatenate((before, between, backwards(after))))
-
-
-def backwards(segments: Floats) -> Floats:
-    """The segments driven from their end."""
-    return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
 
 
 def _begun(rows: NDArray[Number], count: int) -> NDArray[Number]:
@@ -277,5 +190,4 @@ def _empty(
         headings=np.ascontiguousarray(headings, np.float64),
         arrivals=np.zeros((len(headings), 3)),
         ends=np.zeros(len(headings), np.int64),
-        meeting=np.full(5, math.inf),
     )
