@@ -19,6 +19,7 @@ from viaspline.planning.turning.hybrid_astar.pose_search import (
     pose_problems,
 )
 from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
+from viaspline.planning.turning.hybrid_astar.row_layers import SHARE_AFTER_FIRST
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
@@ -300,7 +301,7 @@ def test_shortcuts_along_walls_are_looked_for_a_little_at_a_time():
     places = np.array([(start.x, start.y), (goal.x, goal.y)])
     problem = next(pose_problems(walls(), DISC, RHO, RAMP, places, SEARCH_EFFORTS[0]))
     begin, to = np.array([[*dataclasses.astuple(start), 0.0]]), np.array([math.nan])
-    tree = problem.forwards(begin, goal, to)
+    tree = problem.forwards(begin, goal, to, SHARE_AFTER_FIRST)
     while not tree.is_over:
         tree.go_on()
     arrival, end = tree.arrivals()[0], np.array([goal.x, goal.y, math.nan])

@@ -99,10 +99,11 @@ class PoseProblem:
         self.requirements.spend_on_part(POSES_EFFORT_S * tree.effort)
         tree.go_on()
 
-    def forwards(
-        self, starts: Floats, goal: Goal, headings: Floats, after: float = SHARE_AFTER_ARRIVAL
-    ) -> SearchTree:
-        """A search from some poses to the goal."""
+    def forwards(self, starts: Floats, goal: Goal, headings: Floats, after: float) -> SearchTree:
+        """A search from some poses (n, 4) to the goal, that goes on for a share ``after``.
+
+        See ``SearchTree``.
+        """
         place = np.array([goal.x, goal.y])
         self.requirements.spend(TREE_S)
         return SearchTree(
