@@ -28,8 +28,9 @@ import viaspline as vs
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.turning.hybrid_astar.pose_search import find_poses
-from viaspline.planning.turning.hybrid_astar.search_outcome import Chain, Goal, Pose
+from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
+from viaspline.planning.turning.hybrid_astar.search_outcome import Chain, Goal, NotFound, Pose
 
 WORLDS = {
     "parking1": ("car", 0.9), "parking2": ("car", 0.9), "parking3": ("car", 0.9),
@@ -75,9 +76,7 @@ def least_gap(walls, body, spans) -> float:
 def main(folder: str, pairs: str = str(PAIRS)) -> None:
     steer = json.loads((Path(folder) / "benchmark_template.json").read_text())["settings"]["steer"]
     rho, ramp = steer["car_turning_radius"], steer["hc_cc"]["kappa"] / steer["hc_cc"]["sigma"]
-    find_poses(
-        vs.World([]), Requirements(radius=1, clearance=0), rho, ramp, Pose(0, 0, 0), Goal(9, 9)
-    )
+    one(vs.World([]), Requirements(radius=1, clearance=0), rho, ramp, Pose(0, 0, 0), Pose(9, 9, 0))
     print(f"turning circle {rho} m, ramps {ramp} m, clearance {CLEARANCE} m; CPU ms\n")
     names = ("pairs", "solved", "median ms", "most ms", "length m", "gap m")
     print(f"{'world':12s}" + "".join(f"{name:>11s}" for name in names) + "  refused")
@@ -108,12 +107,13 @@ def main(folder: str, pairs: str = str(PAIRS)) -> None:
         print(f"{name:12s}{figures}  {refused}", flush=True)
 
 
-def one(world, brief, rho, ramp, start: Pose, end: Pose):
+def one(world, brief, rho, ramp, start: Pose, end: Pose) -> tuple[Chain | NotFound, float]:
     """What is found from one pose to another, and the time [ms]."""
     goal = Goal(end.x, end.y, (end.heading,))
     begin = time.process_time()
-    found = find_poses(world, brief, rho, ramp, start, goal)
-    return found, 1e3 * (time.process_time() - begin)
+    found = find_row(world, brief, rho, ramp, [start], [goal], WorkBudget(math.inf))
+    chain = found if isinstance(found, NotFound) else found[0]
+    return chain, 1e3 * (time.process_time() - begin)
 
 
 if __name__ == "__main__":
