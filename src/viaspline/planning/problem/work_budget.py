@@ -89,6 +89,15 @@ class SpentBudgetError(GaveUpError):
     """A search was stopped because what it might spend was spent."""
 
 
+def turn_path_s(bends: int) -> float:
+    """What a turn path round a row of so many bends costs [s of the reference machine].
+
+    >>> turn_path_s(3) == TURN_PATH_S + 3 * TURN_PATH_BEND_S
+    True
+    """
+    return TURN_PATH_S + TURN_PATH_BEND_S * bends
+
+
 @dataclass(eq=False)
 class WorkBudget:
     """What a search may spend, and what it has spent so far.

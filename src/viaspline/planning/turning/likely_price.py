@@ -17,7 +17,7 @@ import numpy as np
 from viaspline.planning.alternatives.homotopy_classes import TautRow
 from viaspline.planning.checking.driving_time import leg_time
 from viaspline.planning.problem.spline_path import SplinePath
-from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
+from viaspline.planning.problem.work_budget import turn_path_s
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, bend, rows_along
 from viaspline.planning.turning.driven_price import DrivenPrice
@@ -79,7 +79,7 @@ class LikelyPrice(DrivenPrice):
         rows = np.vstack((start, rows_along(taut_path), goal))
         vias = np.full(len(rows), DETOUR)
         vias[[0, -1]] = leg, leg + 1
-        problem.requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(rows))
+        problem.requirements.spend(turn_path_s(len(rows)))
         turn_path = turn_path_on_sides(Bends.free(rows, vias).turning(problem.sharpest))
         if isinstance(turn_path, NoTurnPath):
             return None

@@ -29,7 +29,7 @@ from viaspline.kernels.turning.tight_place import (
 )
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, is_clear, proven
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import PUSH_S, TURN_PATH_BEND_S, TURN_PATH_S
+from viaspline.planning.problem.work_budget import PUSH_S, turn_path_s
 from viaspline.planning.turning.bend_row import DETOUR, KEPT, RADIUS, SIDE, Bends, bend
 from viaspline.planning.turning.turn_path import (
     RAMP,
@@ -134,7 +134,7 @@ def turn_path_if_clear(bends: Bends, world: World, requirements: Requirements) -
 
 def _if_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
     """See ``turn_path_if_clear``."""
-    requirements.spend(_turn_path_cost(bends) * count_of_sides(bends))
+    requirements.spend(turn_path_s(len(bends.rows)) * count_of_sides(bends))
     turn_path = turn_path_round(bends)
     if isinstance(turn_path, NoTurnPath) or not is_clear(world, turn_path.spans, requirements):
         return None
@@ -169,15 +169,10 @@ def _pushed_clear(
 
 def _laid(bends: Bends, ramp: float, requirements: Requirements) -> TurnPath | NoTurnPath:
     """The turn path to the sides that are set; it is laid once more for each bend it leaves out."""
-    requirements.spend(_turn_path_cost(bends))
+    requirements.spend(turn_path_s(len(bends.rows)))
     found = turn_path_on_sides(bends, ramp)
-    requirements.spend((len(bends.rows) - len(found.bends.rows)) * _turn_path_cost(bends))
+    requirements.spend((len(bends.rows) - len(found.bends.rows)) * turn_path_s(len(bends.rows)))
     return found
-
-
-def _turn_path_cost(bends: Bends) -> float:
-    """What a turn path round bends costs [s of the reference machine]."""
-    return TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows)
 
 
 def _between(failed: NoTurnPath) -> tuple[tuple[int, Floats], ...]:

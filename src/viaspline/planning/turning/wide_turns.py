@@ -19,11 +19,7 @@ from viaspline.kernels.turning.gentle_lengths import gentle_lengths
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import (
-    TURN_PATH_BEND_S,
-    TURN_PATH_S,
-    TURN_WISHES_S,
-)
+from viaspline.planning.problem.work_budget import TURN_WISHES_S, turn_path_s
 from viaspline.planning.turning.bend_row import HEADING, KEPT, RADIUS, Bends
 from viaspline.planning.turning.joined_bends import (
     TurnWishes,
@@ -133,7 +129,7 @@ class WideTurns:
         if (radii < self.least).any():
             _, tight, _ = _tried(bends, np.minimum(radii, self.least), world, requirements)
         else:
-            requirements.spend(_turn_path_cost(bends))
+            requirements.spend(turn_path_s(len(bends.rows)))
             _, tight, _ = _judged(narrowest, len(radii), world, requirements)
         for _ in range(MAX_NARROWINGS if not tight else 0):
             turn_path, tight, swings = _tried(bends, radii, world, requirements)
@@ -147,7 +143,7 @@ class WideTurns:
 
     def ideal(self, bends: Bends, requirements: Requirements) -> TurnPath | None:
         """The turn path with the widest turns, clear or not; None where they overlap."""
-        requirements.spend(TURN_WISHES_S + TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
+        requirements.spend(TURN_WISHES_S + turn_path_s(len(bends.rows)))
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
@@ -207,7 +203,7 @@ def _tried(
         The path; the bends before and after each tight place, if it isn't clear or there is none;
         how far each turn swings out, (n,).
     """
-    requirements.spend(_turn_path_cost(bends))
+    requirements.spend(turn_path_s(len(bends.rows)))
     settled = settled_turns(bends.turning(radii))
     if isinstance(settled, NoTurnPath):
         return None, _pairs(settled.left, settled.lines), radii
@@ -225,11 +221,6 @@ def _judged(
     if (close == CLEAR).all():
         return turn_path, [], swings
     return None, _pairs_between(turn_path, turn_path.left, np.flatnonzero(close != CLEAR)), swings
-
-
-def _turn_path_cost(bends: Bends) -> float:
-    """What turns round a row cost [s of the reference machine]."""
-    return TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows)
 
 
 def _wound_round(turn_path: TurnPath) -> Ints:
