@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from viaspline.planning.methods.at_radii import AtRadii
 from viaspline.planning.methods.bent_gently import BentGently
+from viaspline.planning.methods.gaps_for_body import GapsForBody
 from viaspline.planning.methods.hybrid_astar_search import HybridAStar
 from viaspline.planning.methods.joint_headings import JointHeadings
 from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
@@ -43,6 +44,7 @@ BODY_METHODS: tuple[PathMethod, ...] = (
         AtRadii((
             NextHomotopyClasses(),
             JointHeadings(),
+            GapsForBody(),
             HybridAStar(),
         )),
     ))),

@@ -11,9 +11,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar, Generic, Protocol, TypeAlias, TypeVar
 
+from viaspline.errors import PlanningError
 from viaspline.planning.problem.work_budget import SpentBudgetError
 
 Value = TypeVar("Value", covariant=True)
@@ -45,10 +46,12 @@ class Refusal:
     Attributes:
         reason: Why, in words.
         via: Index of the via point that can't be served, where that is known.
+        error: All that is to be said of it, where the method knows what would allow one.
     """
 
     reason: str
     via: int | None = None
+    error: PlanningError | None = field(default=None, kw_only=True)
     value: ClassVar[None] = None
 
 

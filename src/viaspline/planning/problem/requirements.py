@@ -14,6 +14,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec, TurnOnSpot
 from viaspline.mission.route_spec import Detours
 from viaspline.mission.spline_spec import SplineSpec, Tangents
+from viaspline.planning.problem.least_width import least_width
 from viaspline.planning.problem.objective import Objective
 from viaspline.planning.problem.parts_found import PartsFound
 from viaspline.planning.problem.path_pace import Pace
@@ -184,6 +185,16 @@ class Requirements(ComparedByValue):
     def required(self) -> float:
         """Distance that the path itself keeps from every obstacle [m]."""
         return max(self.radius + self.kept, LEAST_KEPT_M)
+
+    @cached_property
+    def narrowest_gap(self) -> float:
+        """The width that a gap has at least if the body gets through, however it moves [m].
+
+        A convex body gets through no gap that is narrower than the body itself at its narrowest:
+        G. Strang, "The width of a chair", American Mathematical Monthly 89, 1982.
+        """
+        across = 0.0 if self.footprint is None else least_width(self.footprint)
+        return max(across + 2.0 * self.kept, 2.0 * self.required)
 
     @property
     def around(self) -> float:

@@ -55,6 +55,9 @@ POSES_EFFORT_S = 2.5e-6
 """for each distance to the world that is reckoned in it, as much for some that are looked up, for
 each connection that is tried and each move that is done [s]."""
 
+GAPS_S, GAPS_OBSTACLE_S = 1e-3, 3e-5
+"""Of the gaps that a body doesn't get through: in all, and for each obstacle [s]."""
+
 PASSAGES_S = 2e-2
 """Of the narrow places of a leg that it is led by [s]."""
 

@@ -10,13 +10,15 @@ the one that makes the first odd cycle is the bottleneck. That is exact, and no 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+import shapely
 
+from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.routing.odd_cycle import first_odd_cycle
-from viaspline.planning.problem.requirements import LEAST_KEPT_M
+from viaspline.planning.problem.requirements import LEAST_KEPT_M, Requirements
 from viaspline.planning.routing.gap_graph import GapGraph
 from viaspline.planning.routing.gap_links import GapLinks
 from viaspline.world.world import World
@@ -59,7 +61,39 @@ def bottleneck_between(
     Returns:
         None where some way goes through no gap narrower than ``reach``.
     """
-    graph = GapGraph.of(world, reach)
+    return _narrowest(GapGraph.of(world, reach), start, goal)
+
+
+def body_bottleneck(
+    world: World, start: Floats, goal: Floats, requirements: Requirements
+) -> Bottleneck | None:
+    """The bottleneck of the ways of a convex body from start to goal, however it turns.
+
+    A gap is closed for it that is narrower than itself, see ``Requirements.narrowest_gap``, and in
+    which it doesn't stand at either end; or that is too narrow for its inner disc.
+
+    Args:
+        world: What is in the way.
+        start: [m], at least (2,), with room for that disc.
+        goal: The same.
+        requirements: The body and what it keeps.
+
+    Returns:
+        None where that closes no way.
+    """
+    graph = GapGraph.of(world, requirements.narrowest_gap - 2.0 * PROOF_SLACK_M)
+    links = graph.links
+    gaps = np.asarray(shapely.linestrings(links.feet.reshape(-1, 2, 2)))
+    ends = np.array([start[:2], goal[:2]])
+    away = shapely.distance(gaps[:, None], shapely.points(ends)).min(axis=1)
+    is_closed = (links.widths < 2.0 * (requirements.required - PROOF_SLACK_M)) | (
+        away > requirements.around
+    )
+    return _narrowest(replace(graph, links=links.some(is_closed)), start, goal)
+
+
+def _narrowest(graph: GapGraph, start: Floats, goal: Floats) -> Bottleneck | None:
+    """The gap that closes the first loop round one of two places, of all that are closed."""
     links, count = graph.links, len(graph.owners)
     odd = _crossings(graph, np.asarray(start[:2]), np.asarray(goal[:2]))
     first, second = (np.ascontiguousarray(ends) for ends in links.pairs.T)

@@ -73,7 +73,29 @@ def explain_blocked_leg(
         return _just_enough(start, goal, world, requirements, moves, changes)
     if gap.is_shut:
         return _shut_off(start, goal, world, gap, requirements, moves, changes)
-    return _too_narrow(start, goal, world, gap, requirements, moves, changes)
+    remedy, change = _slimmer(0.5 * gap.width, requirements)
+    remedies, changes = (*remedy, *moves), (*change, *changes)
+    required = requirements.required
+    return _too_narrow(start, goal, world, gap, required, 2.0 * required, remedies, changes)
+
+
+def explain_narrow_leg(
+    sequence: ViaSequence, leg: int, world: World, requirements: Requirements, gap: Bottleneck
+) -> NoPathError:
+    """Why a body gets from no via point to the next: all ways go through too narrow a gap."""
+    start, goal = sequence.ends(leg)
+    needed, kept = requirements.narrowest_gap, requirements.kept
+    less = 0.5 * (needed - gap.width) + CURVE_ROOM_M
+    clearance = _rounded_down(requirements.clearance - less)
+    remedies: tuple[str, ...] = (f"widen it to more than {math.ceil(1e3 * needed) / 1e3:.3f} m",)
+    changes: tuple[Change, ...] = ()
+    if clearance >= 0.0:
+        remedies = (f"set robot.clearance_m to at most {clearance:.3f}", *remedies)
+        changes = (Change("robot.clearance_m", clearance),)
+    elif gap.width > 2.0 * kept:
+        width = _rounded_down(gap.width - 2.0 * kept)
+        remedies = (f"the body may be at most {width:.3f} m wide there", *remedies)
+    return _too_narrow(start, goal, world, gap, requirements.required, needed, remedies, changes)
 
 
 def _shut_off(
@@ -96,24 +118,23 @@ def _shut_off(
 
 
 def _too_narrow(
-    start: RouteVia, goal: RouteVia, world: World, gap: Bottleneck, requirements: Requirements,
-    moves: tuple[str, ...], changes: tuple[Change, ...],
+    start: RouteVia, goal: RouteVia, world: World, gap: Bottleneck, required: float,
+    wide_enough: float, remedies: tuple[str, ...], changes: tuple[Change, ...],
 ) -> NoPathError:  # fmt: skip
-    """Where the widest way is too narrow."""
+    """Where the widest way is narrower than is wide enough [m]."""
     sides = tuple(dict.fromkeys(world.name(owner) for owner in gap.owners))
     between = f"in {sides[0]!r}" if len(sides) == 1 else f"between {sides[0]!r} and {sides[1]!r}"
-    remedy, change = _slimmer(0.5 * gap.width, requirements)
-    room, needed = _told_apart(gap.width, 2.0 * requirements.required)
-    through = _towards(gap, start, goal, requirements.required)
+    room, needed = _told_apart(gap.width, wide_enough)
+    through = _towards(gap, start, goal, required)
     return NoPathError(
         f"no way from {start.name!r} to {goal.name!r} is wide enough: the best one {through} "
         f"a gap {between} at ({gap.at[0]:.2f}, {gap.at[1]:.2f}) with {room} m of "
         f"room, {needed} m are needed",
         where=gap.at,
-        remedy=" or ".join((*remedy, *moves)) or f"widen it to more than {needed} m",
+        remedy=" or ".join(remedies) or f"widen it to more than {needed} m",
         via=goal.name,
         obstacles=sides,
-        changes=(*change, *changes),
+        changes=changes,
     )
 
 

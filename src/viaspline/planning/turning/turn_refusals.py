@@ -40,6 +40,8 @@ def unlaid(problem: DrivenProblem, outcome: Refusal | GaveUp) -> PlanningError:
         problem: What was asked for.
         outcome: What the methods came to.
     """
+    if isinstance(outcome, Refusal) and outcome.error is not None:
+        return outcome.error
     via = problem.sequence.vias[outcome.via or 0]
     is_hurried = problem.requirements.budget is not None
     sided = [] if is_hurried else _sides_in_the_way(problem)

@@ -120,6 +120,9 @@ def _across(world: World, way: Floats, limit: float, kept: float) -> tuple[Float
 def _nearest_hit(world: World, way: Floats, headings: Floats, limit: float, kept: float) -> Floats:
     """The nearest of what rays from places (n, 2) hit; NaN where that is farther than a limit [m].
 
+    One ray away from what is nearest, as ``kernels/routing/narrow_gaps`` has it, goes past the end
+    of a wall that is thinner than a cell.
+
     Args:
         world: Its walls.
         way: The places [m].

@@ -1,0 +1,56 @@
+"""Proves that a body is too wide for every way, before poses are searched for one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from viaspline.planning.problem.method import GaveUp, Outcome, Refusal
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.work_budget import GAPS_OBSTACLE_S, GAPS_S
+from viaspline.planning.routing.bottleneck import Bottleneck, body_bottleneck
+from viaspline.planning.routing.leg_refusals import explain_narrow_leg
+from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
+from viaspline.planning.turning.hybrid_astar.closed_gaps import MAX_GAP_OBSTACLES
+from viaspline.world.world import World
+
+
+@dataclass(frozen=True)
+class GapsForBody:
+    """Finds no path, and refuses where the body gets through none of the gaps of a leg.
+
+    Routes are those of the largest disc about its reference point: behind the axle of a car there
+    is less of it than it is wide.
+    """
+
+    def lay(self, problem: TurnProblem, bound: float = math.inf) -> Outcome[SplinePath]:
+        """See ``Method``."""
+        path = problem.path
+        sequence, world, requirements = path.sequence, path.world, path.requirements
+        is_disc = requirements.narrowest_gap <= 2.0 * requirements.required
+        if is_disc or (requirements.budget is not None and _takes_long(world)):
+            return GaveUp(())
+        for leg in range(len(sequence.legs)):
+            gap = _bottleneck(path, leg)
+            if gap is not None:
+                error = explain_narrow_leg(sequence, leg, world, requirements, gap)
+                via = (leg + 1) % len(sequence.vias)
+                return Refusal("every gap on the way there is too narrow", via, error=error)
+        return GaveUp(())
+
+
+def _takes_long(world: World) -> bool:
+    """Whether a robot under way has no time for it."""
+    return len(world) > MAX_GAP_OBSTACLES or bool(world.are_maps.any())
+
+
+def _bottleneck(path: DrivenProblem, leg: int) -> Bottleneck | None:
+    """What closes a leg for the body, if anything does."""
+    world, requirements = path.world, path.requirements
+    start, goal = (via.at[:2] for via in path.sequence.ends(leg))
+
+    def told() -> Bottleneck | None:
+        requirements.spend(GAPS_S + GAPS_OBSTACLE_S * len(world))
+        return body_bottleneck(world, start, goal, requirements)
+
+    return requirements.once(("gaps for body", world, *start.tolist(), *goal.tolist()), told)
