@@ -14,7 +14,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.jit import inlined, kernel, uncounted
+from viaspline.kernels.jit import inlined, kernel
 from viaspline.kernels.space.ground_columns import ground_chord, ground_signed
 from viaspline.kernels.space.line_distance import line_chord, line_signed
 from viaspline.kernels.space.packed_space import LINE, PRISM, PackedSpace
@@ -73,7 +73,7 @@ def _first_guess(space: PackedSpace, x: float, y: float, z: float) -> int:
     return space.leaf[node]
 
 
-@uncounted
+@inlined
 def space_distance(
     space: PackedSpace, x: float, y: float, z: float, limit: float
 ) -> tuple[float, int]:
@@ -128,7 +128,7 @@ def _is_near(
     return near <= far
 
 
-@uncounted
+@inlined
 def space_segment(
     space: PackedSpace, x0: float, y0: float, z0: float, x1: float, y1: float, z1: float,
     limit: float,
