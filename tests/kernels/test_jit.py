@@ -1,14 +1,18 @@
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
+from textwrap import indent
 
 import numba
+import numpy as np
 import pytest
 
 from viaspline.kernels import jit, kernel_cache
 from viaspline.kernels.compile_events import compile_progress
+from viaspline.kernels.routing.navmesh.dilate import grow_into
 
 compiled = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT") == "1", reason="nothing is compiled with the JIT off"
@@ -125,6 +129,43 @@ def test_of_four_processes_on_one_cold_cache_one_compiles_each_kernel(tmp_path: 
     assert sorted(compiled) == sorted(set(compiled))
     assert [error for _, error in told] == [""] * 4
     assert list((tmp_path / "cold").rglob("*grow_into*.nbi"))
+
+
+@compiled
+def test_what_fails_to_compile_keeps_no_other_process_waiting(tmp_path: Path) -> None:
+    environment = os.environ | {"VIASPLINE_CACHE_DIR": str(tmp_path / "cold")}
+    fails = ONE_KERNEL.replace("np.uint8), 1.0", "np.uint8), 'wide'")
+    waits = [sys.executable, "-c", f"try:\n{indent(fails, ' ')}\nexcept Exception:\n input()"]
+    one = subprocess.Popen(
+        waits, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    try:
+        locks = tmp_path / "cold"
+        while not [*locks.rglob("*.lock")]:
+            time.sleep(0.01)
+        other = [sys.executable, "-c", ONE_KERNEL]
+        done = subprocess.run(
+            other, env=environment, capture_output=True, text=True, timeout=100, check=False
+        )
+        assert done.returncode == 0, done.stderr
+    finally:
+        one.communicate("\n")
+
+
+@compiled
+def test_an_interrupt_that_a_callback_swallowed_is_raised_where_the_kernel_would_be_kept(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Half of those that come while LLVM works, which Python hears of in its next callback."""
+
+    def not_told(result: object) -> object:
+        raise RuntimeError("no compiled object yet")
+
+    monkeypatch.setattr(
+        kernel_cache.CompileResultCacheImpl, "reduce", lambda _, cres: not_told(cres)
+    )
+    with pytest.raises(KeyboardInterrupt):
+        grow_into(np.ones((1, 1), np.uint8), np.float32(1.0), 2, 2, 1, np.zeros((5, 5), np.uint8))
 
 
 @compiled

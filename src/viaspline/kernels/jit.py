@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, TypeVar
 
 import numba
@@ -43,7 +44,17 @@ def _compile(function: _Function, **options: Any) -> _Function:
         _take_literals_as_values(dispatcher)
         if is_kept(function):
             dispatcher._cache = cache(function)
+            dispatcher.compile = partial(_compile_or_let_go, dispatcher.compile, dispatcher._cache)
     return compiled
+
+
+def _compile_or_let_go(compiling: Callable[[Any], Any], cache: Any, signature: Any) -> Any:
+    """Compile for a signature; no other process waits for what fails or is interrupted."""
+    try:
+        return compiling(signature)
+    except BaseException:
+        cache.let_go()
+        raise
 
 
 def kernel(function: _Function) -> _Function:

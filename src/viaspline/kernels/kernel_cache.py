@@ -176,14 +176,28 @@ class KernelCache(FunctionCache):
         return None if data is None else impl.rebuild(context, data)
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep what was compiled for a signature, if that can be."""
+        """Keep what was compiled for a signature, if that can be.
+
+        Raises:
+            KeyboardInterrupt: When one came where llvmlite is told what was compiled: that is
+                called back from C, which swallows exceptions, and isn't told then.
+        """
         base: Any = super()
         if not _is_of_ours(sig):
             return
-        with suppress(OSError):  # the folder can't be written any more: compiled, not kept
+        try:
             base.save_overload(sig, data)
+        except OSError:  # the folder can't be written any more: compiled, not kept
+            pass
+        except RuntimeError as error:
+            raise KeyboardInterrupt from error
         if sig in self._compiling:
             self._compiled(sig)
+
+    def let_go(self) -> None:
+        """Let other processes compile what this one failed at."""
+        while self._compiling:
+            self._compiled(next(iter(self._compiling)))
 
     def kept(self) -> set[Any]:
         """The signatures for which something is kept."""
