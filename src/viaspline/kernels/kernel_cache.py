@@ -29,7 +29,10 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataC
 
 from viaspline.kernels.compile_lock import CompileLock
 from viaspline.kernels.shipped_kernels import SHIPPED
+from viaspline.kernels.sooner_compiled import compile_sooner
 from viaspline.kernels.source_keys import PACKAGE, SourceKeys
+
+compile_sooner()
 
 SOURCES = SourceKeys.read(Path(__file__).parent)
 

@@ -24,7 +24,7 @@ KEEPERS = frozenset(
     f"{PACKAGE}.{name}"
     for name in (
         "compile_events", "compile_lock", "kernel_cache", "loaded_kernels", "shipped_kernels",
-        "source_keys",
+        "sooner_compiled", "source_keys",
     )
 )  # fmt: skip
 """The modules that keep compiled kernels."""
