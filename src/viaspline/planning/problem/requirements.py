@@ -75,6 +75,11 @@ class Requirements(ComparedByValue):
         if self.budget is not None:
             self.budget.spend(cost)
 
+    @property
+    def spent(self) -> float:
+        """What of the budget is spent [s of the reference machine]; nothing without one."""
+        return 0.0 if self.budget is None else self.budget.spent
+
     def once(self, asked: Hashable, part: Callable[[], Value]) -> Value:
         """What a part of a search comes to, which later steps of the search find done.
 

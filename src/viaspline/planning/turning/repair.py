@@ -9,28 +9,16 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.turning.tight_place import (
-    ALONG_X,
-    ALONG_Y,
-    GAP,
-    OFF_X,
-    OFF_Y,
-    U,
-    X,
-    Y,
-    tight_place,
-)
-from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, is_clear, proven
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, is_clear
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import PUSH_S, turn_path_s
+from viaspline.planning.problem.work_budget import turn_path_s
 from viaspline.planning.turning.bend_row import DETOUR, KEPT, RADIUS, SIDE, Bends, bend
+from viaspline.planning.turning.tightest_place import tightest_place
 from viaspline.planning.turning.turn_path import (
     RAMP,
     NoTurnPath,
@@ -43,10 +31,7 @@ from viaspline.planning.turning.turn_path import (
 from viaspline.world.world import World
 
 MAX_PUSH_ROUNDS = 12
-SAMPLES_PER_SPAN = 9  # to find its tightest place
-GRADIENT_STEP_M = 1e-6  # of the gradient of the distance
 BEND_SLACK_M = 2e-3  # what a bend keeps beyond what is required
-SPANS_AHEAD = 12  # after a run, on which the path may pass what the front touches
 RAMP_SHORTENING = 0.5  # of the ramps' length from one round to another
 LEAST_RAMP = 0.08  # length of a ramp, in radii
 SAME_BEND = 0.25  # bends nearer to each other than this, in required distances, are one
@@ -145,7 +130,8 @@ def _pushed_clear(
     turn_path: TurnPath | NoTurnPath, world: World, requirements: Requirements, ramp: float
 ) -> TurnPath | Stuck:
     """A turn path pushed clear, to the same sides, or where it got stuck."""
-    for _ in range(MAX_PUSH_ROUNDS):
+    for left in reversed(range(MAX_PUSH_ROUNDS)):
+        spent = requirements.spent
         if isinstance(turn_path, NoTurnPath):
             return Stuck(partial(_between, turn_path))
         close = body_conflicts(world, turn_path.spans, requirements)
@@ -157,6 +143,11 @@ def _pushed_clear(
         if isinstance(pushed, TurnPath) and np.array_equal(pushed.bends.rows, rows):
             ramp *= RAMP_SHORTENING  # the lines are far enough off, the ramps cut the corner
             pushed = _laid(turn_path.bends, ramp, requirements)
+        elif isinstance(pushed, TurnPath) and _are_one(pushed, turn_path):
+            cost = requirements.spent - spent
+            for _ in range(left):  # no round would do more; each is paid for, and not gone
+                requirements.spend(cost)
+            break
         if isinstance(pushed, NoTurnPath) or ramp < LEAST_RAMP:
             return Stuck(partial(_first_too_close, turn_path, close, world, requirements))
         turn_path = pushed
@@ -165,6 +156,12 @@ def _pushed_clear(
     if (close == CLEAR).all():
         return turn_path
     return Stuck(partial(_first_too_close, turn_path, close, world, requirements))
+
+
+def _are_one(first: TurnPath, second: TurnPath) -> bool:
+    """Whether two turn paths are the same."""
+    same_bends = first.bends.key == second.bends.key
+    return same_bends and np.array_equal(first.spans, second.spans)
 
 
 def _laid(bends: Bends, ramp: float, requirements: Requirements) -> TurnPath | NoTurnPath:
@@ -192,7 +189,7 @@ def _first_too_close(
     """Where the first run of spans is too close."""
     hit = np.flatnonzero(close != CLEAR)
     run = np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)[0]
-    tight = _tightest(turn_path.spans, run, world, requirements)
+    tight = tightest_place(turn_path.spans, run, world, requirements)
     return ((turn_path.bends.leg_of(_row_before(turn_path, tight.u)), tight.wall),)
 
 
@@ -212,7 +209,7 @@ def _push(
     bends: Bends, turn_path: TurnPath, run: NDArray[np.int64], world: World,
     requirements: Requirements,
 ) -> Bends:  # fmt: skip
-    tight = _tightest(turn_path.spans, run, world, requirements)
+    tight = tightest_place(turn_path.spans, run, world, requirements)
     left = np.array([-tight.along[1], tight.along[0]])
     side = 1.0 if tight.into @ left > 0.0 else -1.0
     row = _row_before(turn_path, tight.u) + 1
@@ -230,77 +227,3 @@ def _push(
 def _row_before(turn_path: TurnPath, u: float) -> int:
     """The bend whose apex comes before a parameter of the curve."""
     return int(np.searchsorted(turn_path.begins[: len(turn_path.bends.rows)], u, side="right")) - 1
-
-
-class _Tight(NamedTuple):
-    """Where a curve is too close.
-
-    Attributes:
-        u: Its parameter.
-        along: The direction of the curve there, a unit vector.
-        wall: The surface of what it is too close to [m], (2,).
-        into: From there to its inside, a unit vector.
-        missing: By how much it is too close [m].
-        kept: What the path has to keep from the surface [m].
-    """
-
-    u: float
-    along: Floats
-    wall: Floats
-    into: Floats
-    missing: float
-    kept: float
-
-
-def _tightest(
-    spans: Floats, run: NDArray[np.int64], world: World, requirements: Requirements
-) -> _Tight:
-    """The tightest place of a run of the spans of a curve, (m, 4, 2)."""
-    requirements.spend(PUSH_S)
-    first, last = int(run[0]), int(run[-1])
-    if requirements.footprint is not None:
-        found = proven(PiecewiseCubic(spans[first : last + 1]), world, requirements)
-        if found.contact is not None:
-            missing = requirements.least - found.clearance
-            return _touched(spans, (first, last), found.contact, missing, world, requirements)
-    at = tight_place(world.packed, spans[first : last + 1], SAMPLES_PER_SPAN, GRADIENT_STEP_M)
-    gap, into = float(at[GAP]), -at[[OFF_X, OFF_Y]]
-    return _Tight(
-        first + float(at[U]), at[[ALONG_X, ALONG_Y]], at[[X, Y]] + gap * into, into,
-        max(requirements.required - gap, 0.0), requirements.required,
-    )  # fmt: skip
-
-
-def _touched(
-    spans: Floats, run: tuple[int, int], contact: tuple[float, float], missing: float,
-    world: World, requirements: Requirements,
-) -> _Tight:  # fmt: skip
-    """The tightest place of a run on which a polygon touches something with its outline.
-
-    Args:
-        spans: Of the curve, (m, 4, 2).
-        run: The first and the last of them that are too close.
-        contact: The nearest place of the outline [m].
-        missing: By how much it is too near [m].
-        world: What it touches.
-        requirements: The body, and what it keeps.
-    """
-    at = np.array(contact)
-    gap, into = _gap_and_inside(world, at)
-    wall = at + gap * into
-    # the front may touch where the reference point is yet to come
-    curve = PiecewiseCubic(spans[run[0] : run[1] + SPANS_AHEAD])
-    beside = curve.project(wall)
-    kept = max(beside.distance + 1.1 * missing, requirements.required)
-    heading = float(curve.heading(beside.u))
-    along = np.array([np.cos(heading), np.sin(heading)])
-    return _Tight(run[0] + float(beside.u), along, wall, into, missing, kept)
-
-
-def _gap_and_inside(world: World, place: Floats) -> tuple[float, Floats]:
-    """The distance of a place (2,) from what is nearest [m], and a unit vector to there (2,)."""
-    steps = place + GRADIENT_STEP_M * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
-    d = world.distance(steps)
-    slope = np.array([d[2] - d[1], d[4] - d[3]])
-    size = float(np.linalg.norm(slope))
-    return float(d[0]), slope / size if size > 0.0 else np.array([-1.0, 0.0])
