@@ -41,7 +41,7 @@ class _NoCollections(event.Listener):
 
     def on_end(self, event: Any) -> None:
         del event
-        self._depth -= 1
+        self._depth = max(self._depth - 1, 0)  # an interrupt may have come before it was counted
         if not self._depth and self._rests:
             self._rests = False
             gc.enable()
