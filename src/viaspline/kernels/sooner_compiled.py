@@ -15,15 +15,16 @@ from typing import Any, Final
 
 from numba.core import event, ir
 from numba.core.targetconfig import TargetConfig
-from numba.core.typing.templates import _OverloadFunctionTemplate
+from numba.core.typing import templates
 
 _NO_VARIABLES: Final = frozenset(
     {str, int, bool, type(None), ir.Loc, ir.Const, ir.Global, ir.FreeVar, ir.Arg}
 )
 """The types of what stands in an instruction and holds no variable of its function."""
 
-_variables_in: Final[Any] = ir.Inst._rec_list_vars
-_decorator_of: Final[Any] = _OverloadFunctionTemplate._get_jit_decorator
+_own_functions: Final[Any] = getattr(templates, "_OverloadFunctionTemplate", None)
+_variables_in: Final[Any] = getattr(ir.Inst, "_rec_list_vars", None)
+_decorator_of: Final[Any] = getattr(_own_functions, "_get_jit_decorator", None)
 
 
 class _NoCollections(event.Listener):
@@ -71,10 +72,14 @@ def _decorator(template: Any) -> Callable[..., Any]:
 
 
 def compile_sooner() -> None:
-    """Have numba do without all of that from now on."""
+    """Have numba do without all of that from now on.
+
+    These are places of its own, which another numba may have elsewhere: that compiles as it does.
+    """
     register: Any = event.register
     register("numba:compile", _NoCollections())
-    kinds: tuple[Any, ...] = (TargetConfig, ir.Inst, _OverloadFunctionTemplate)
+    kinds: tuple[Any, ...] = (TargetConfig, ir.Inst, _own_functions)
     names = ("values", "_rec_list_vars", "_get_jit_decorator")
     for kind, name, function in zip(kinds, names, (_values, _variables, _decorator), strict=True):
-        setattr(kind, name, function)
+        if hasattr(kind, name):
+            setattr(kind, name, function)
