@@ -6,7 +6,8 @@ Two or three rooms; a door that something closes which isn't on the map, and ano
 end, 30 to 60 m away, now and then behind a few walls that leave a lane on alternate sides. Robots
 of every kind (``random_drives.py``), with range sensors and lidars. An oracle that shares no code
 with the planner (``oracle.py``) tells whether there is a way for the disc around the body with room
-to turn. A line for each drive, its steps by the processor's time.
+to turn. A line for each drive, its steps by the processor's time, and how near its body came to
+anything by shapely.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
+import shapely
 from oracle import Box, distances_to, inside_bounds, verdict
 from random_drives import ROBOTS
 from steps import Steps, measured
@@ -154,6 +156,26 @@ def _shape(thing) -> dict:
     return {"polygon": thing.tolist()}
 
 
+def least_gap(run: vs.Run) -> float:
+    """From the body as it was driven to the nearest thing [m]."""
+    world, robot = run.plan.mission.world, run.plan.mission.robot
+    things = shapely.union_all([_drawn(thing) for thing in (*world.known, *world.unseen)])
+    places = np.asarray(run.positions)
+    if robot.footprint is None:
+        return float(shapely.distance(shapely.points(places), things).min()) - robot.radius_m
+    x, y = np.array(robot.footprint).T
+    c, s = np.cos(run.headings)[:, None], np.sin(run.headings)[:, None]
+    corners = (places[:, :1] + c * x - s * y, places[:, 1:2] + s * x + c * y)
+    bodies = shapely.polygons(np.stack(corners, axis=-1))
+    return float(shapely.distance(bodies, things).min())
+
+
+def _drawn(thing: vs.Obstacle) -> shapely.Geometry:
+    if thing.circle is None:
+        return shapely.Polygon(thing.polygon)
+    return shapely.Point(thing.circle.center).buffer(thing.circle.radius, 256)
+
+
 def main(count: int = 60, first: int = 0) -> None:
     """Drive them, and tell how many came to their end."""
     compile_curves()
@@ -174,7 +196,8 @@ def main(count: int = 60, first: int = 0) -> None:
         moving, still = (1e3 * max(some, default=0.0) for some in (steps.under_way, steps.standing))
         print(
             f"{number}: {what}: {outcome}; {len(run.replans)} re-plans, {run.duration:.0f} s, "
-            f"steps of {moving:.0f} ms under way and {still:.0f} ms standing at most",
+            f"steps of {moving:.0f} ms under way and {still:.0f} ms standing at most, "
+            f"{least_gap(run):.3f} m from what is nearest ({asked.robot.clearance_m:g} asked)",
             flush=True,
         )
     print(f"{reached} of {driven} reached")

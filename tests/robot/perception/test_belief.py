@@ -8,7 +8,8 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+import shapely.affinity
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.path import Path
@@ -155,6 +156,52 @@ def test_a_body_can_go_where_beams_have_been_on_all_of_its_front() -> None:
     assert certain(belief, beside, 0.0) > 2.0
     behind = line((0.0, 0.0), (-3.0, 0.0))
     assert certain(belief, behind, 0.0) == 0.0
+
+
+VAN = ((-0.3, -0.35), (1.2, -0.35), (1.2, 0.35), (-0.3, 0.35))
+
+
+def swept(path: Path, until: float) -> list[shapely.Polygon]:
+    """A van on places of a path, as polygons."""
+    found = []
+    for along in np.linspace(0.0, until, 120):
+        u = float(path.parameter(along))
+        body = shapely.affinity.rotate(shapely.Polygon(VAN), path.heading(u), (0, 0), True)
+        found.append(shapely.affinity.translate(body, *np.asarray(path.evaluate(u))))
+    return found
+
+
+@given(st.lists(st.tuples(st.floats(0, 6), st.floats(-3, 3), st.floats(0.15, 0.8)), max_size=6),
+       st.floats(-2.0, 2.0), st.sampled_from([120.0, 270.0]))  # fmt: skip
+@settings(max_examples=60)
+def test_a_long_body_goes_no_farther_than_beams_have_been_before_all_of_it(
+    posts: list[tuple[float, float, float]], aside: float, fov: float
+) -> None:
+    start = shapely.Polygon(VAN).buffer(0.2)
+    things = [shapely.Point(x, y).buffer(r, 64) for x, y, r in posts]
+    assume(not any(start.intersects(thing) for thing in things))
+    obstacles = [Obstacle(circle=Circle(center=(x, y), radius=r)) for x, y, r in posts]
+    lidar = LIDAR.model_copy(update={"fov_deg": fov})
+    van = RobotSpec(footprint=VAN, clearance_m=0.1, sensor=Sensor(lidar=lidar))
+    belief, _ = Belief.at_start(World(), van).with_scan(
+        LidarSensor(obstacles, lidar).scan((0.0, 0.0), 0.0)
+    )
+    path, floor = Path([[(0, 0), (2, 0), (3, aside), (6, aside)]], []), van.inner_radius + 0.1
+    seen = belief.seen_until(path, 0.0, path.length, floor)
+    until = belief.clear_until(path, 0.0, seen, floor)
+    there = shapely.union_all(things)
+    assert not any(body.intersects(there) for body in swept(path, until))
+    if not posts and aside == 0.0:
+        assert until == pytest.approx(6.0 - 1.2, abs=0.15)
+
+
+def test_a_long_body_that_turns_on_the_spot_has_seen_where_its_ends_get() -> None:
+    lidar = LIDAR.model_copy(update={"fov_deg": 120.0})
+    van = RobotSpec(footprint=VAN, sensor=Sensor(lidar=lidar))
+    belief, _ = Belief.at_start(World(), van).with_scan(LidarSensor([], lidar).scan((0, 0), 0.0))
+    slight, sharp = line((0, 0), (1, 0), (1.9, 0.4)), line((0, 0), (1, 0), (0.6, 1))
+    assert belief.seen_until(slight, 0.0, slight.length, 0.35) > 1.5
+    assert belief.seen_until(sharp, 0.0, sharp.length, 0.35) == pytest.approx(1.0, abs=0.1)
 
 
 def test_a_shadow_is_not_entered_until_it_has_been_looked_into() -> None:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+import shapely.affinity
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -18,6 +19,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigation.law_past import spans_until
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
@@ -53,6 +55,53 @@ def test_a_small_robot_that_sees_too_little_takes_its_smallest_step(
     robot = {"radius_m": 0.0, "clearance_m": 0.0, "tracking_error_m": 0.02, "sensor": sensor}
     run = simulate(mission_of([0, 0], [1, 0], **{**robot, **limit}))
     assert run.reached, run.reason
+
+
+def least_gap(run: Run, walls: shapely.Polygon) -> float:
+    """From the body as it was driven to what there is, by shapely [m]."""
+    x, y = np.array(run.plan.mission.robot.footprint).T
+    c, s = np.cos(run.headings)[:, None], np.sin(run.headings)[:, None]
+    places = np.asarray(run.positions)
+    corners = (places[:, :1] + c * x - s * y, places[:, 1:2] + s * x + c * y)
+    return float(shapely.distance(shapely.polygons(np.stack(corners, axis=-1)), walls).min())
+
+
+def long_car(front: float, speed: float, sees: float) -> dict[str, Any]:
+    """A steered robot that reaches far ahead of its rear axle, and doesn't drive backwards."""
+    return {
+        "footprint": [[-0.3, -0.35], [front, -0.35], [front, 0.35], [-0.3, 0.35]],
+        "clearance_m": 0.15, "max_speed_mps": speed,
+        "drive": {"ackermann": {"wheelbase_m": 1, "max_steer_deg": 32}, "delay_s": 0.1,
+                  "lag_s": 0.1},
+        "sensor": {"lidar": {"range_m": sees, "fov_deg": 270.0}},
+    }  # fmt: skip
+
+
+def before_a_wall(mission_of: Make, far: float, tilt: float, **robot: Any) -> tuple[Run, float]:
+    """A drive towards a wall that isn't on the map, and how near the body comes to it [m]."""
+    wall = shapely.affinity.rotate(shapely.box(far, -4.0, far + 0.3, 4.0), tilt, (far, 0.0))
+    unseen = [{"polygon": [list(at) for at in wall.exterior.coords[:-1]]}]
+    run = simulate(mission_of([0, 0], [16, 0], unseen=unseen, **robot))
+    return run, least_gap(run, wall)
+
+
+def test_a_long_car_that_has_no_room_to_turn_stops_before_its_front_is_too_near(
+    mission_of: Make,
+) -> None:
+    run, gap = before_a_wall(mission_of, 4.4, 4.0, **long_car(1.4, 1.8, 3.2))
+    assert not run.reached
+    assert gap >= 0.15
+
+
+@pytest.mark.slow
+@given(st.floats(4, 6), st.floats(-15, 15), st.floats(0.8, 1.6), st.floats(1, 1.8),
+       st.floats(2.6, 3.4))  # fmt: skip
+@settings(deadline=None, max_examples=8)
+def test_no_long_car_comes_nearer_to_a_wall_than_its_clearance(
+    mission_of: Make, far: float, tilt: float, front: float, speed: float, sees: float
+) -> None:
+    _, gap = before_a_wall(mission_of, far, tilt, **long_car(front, speed, sees + front - 1.0))
+    assert gap >= 0.15
 
 
 def test_without_a_scan_it_stays_where_it_is(mission_of: Make) -> None:

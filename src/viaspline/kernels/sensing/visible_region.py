@@ -6,11 +6,16 @@ Tested through ``robot/perception/test_belief``.
 from __future__ import annotations
 
 import math
+from typing import Final
 
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
+
+SWEPT_SHARE: Final = 1e-3
+"""A point of a body that moves outwards by less than this, of how far the body moves, sweeps over
+nothing new."""
 
 
 @inner
@@ -75,6 +80,44 @@ def seen_ahead(
             if not _is_seen(x, y, origins, firsts, step, lengths):
                 return k
     return places.shape[0]
+
+
+@kernel
+def body_seen_ahead(
+    poses: Floats, moves: Floats, points: Floats, normals: Floats, origins: Floats, firsts: Floats,
+    step: float, lengths: Floats,
+) -> int:  # fmt: skip
+    """How far a body can go with all that it newly covers always on places that a scan has seen.
+
+    Args:
+        poses: x, y [m], heading [rad], close together, (n, 3).
+        moves: How far it moves ahead [m] and turns [rad] to get into each, (n, 2).
+        points: About its outline, in its frame [m], (m, 2).
+        normals: Away from it there, (m, 2).
+        origins: As for ``seen_ahead``, with all that follows.
+        firsts: The same.
+        step: The same.
+        lengths: The same.
+
+    Returns:
+        How many poses it can take, from the first on.
+    """
+    for k in range(poses.shape[0]):
+        c = math.cos(poses[k, 2])
+        s = math.sin(poses[k, 2])
+        ahead = moves[k, 0]
+        turn = moves[k, 1]
+        for point in range(points.shape[0]):
+            along = points[point, 0]
+            aside = points[point, 1]
+            outwards = normals[point, 0] * (ahead - turn * aside) + normals[point, 1] * turn * along
+            if outwards <= SWEPT_SHARE * (ahead + abs(turn) * math.hypot(along, aside)):
+                continue
+            x = poses[k, 0] + along * c - aside * s
+            y = poses[k, 1] + along * s + aside * c
+            if not _is_seen(x, y, origins, firsts, step, lengths):
+                return k
+    return poses.shape[0]
 
 
 @kernel

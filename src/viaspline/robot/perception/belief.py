@@ -11,9 +11,13 @@ from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.planning.problem.requirements import LEAST_KEPT_M
+from viaspline.robot.perception.body_front import Footprint, body_motion, body_rim
+from viaspline.robot.perception.body_room import clear_places
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.scan_history import ScanHistory
 from viaspline.robot.perception.surface_points import SurfacePoints
+from viaspline.world.outline import outline
 from viaspline.world.world import World
 
 DISC_RATIO = 1.0 / 20.0
@@ -73,7 +77,9 @@ class Belief:
         settled: The map and the surfaces but for the latest, packed once for many scans.
         surfaces: The surfaces that beams have hit.
         scans: The looks round that are remembered.
-        body: The robot's radius [m].
+        body: The robot's radius, or how far its body reaches about its reference point [m].
+        inner: The radius of the largest disc in it [m].
+        footprint: Its corners if it is a polygon [m].
         lookahead: How far along its path the robot looks [m]: as far as it needs to stop from its
             full speed, and a little more.
         world: The map and the surfaces.
@@ -84,6 +90,8 @@ class Belief:
     surfaces: SurfacePoints
     scans: ScanHistory
     body: float
+    inner: float
+    footprint: Footprint | None
     lookahead: float
     world: World
 
@@ -108,7 +116,10 @@ class Belief:
             near=2.0 * lookahead, apart=max(required, 4.0 * cell_size), noise=lidar.noise_m
         )
         surfaces = SurfacePoints.none(cell_size, lidar.noise_m)
-        return cls(world, world, surfaces, scans, robot.outer_radius, lookahead, world)
+        return cls(
+            world, world, surfaces, scans, robot.outer_radius, robot.inner_radius, robot.footprint,
+            lookahead, world,
+        )  # fmt: skip
 
     @property
     def cell_size(self) -> float:
@@ -158,6 +169,9 @@ class Belief:
         if end <= start:
             return end
         along = self._along(path, start, end)
+        if self.footprint is not None:
+            count = self._body_seen(self.footprint, path, start, along, floor)
+            return float(along[count - 1]) if count else start
         u = np.asarray(path.parameter(along))
         places = np.asarray(path.evaluate(u))[:, :2]
         tangents = np.asarray(path.tangent(u))[:, :2]
@@ -181,10 +195,25 @@ class Belief:
         if not len(self.world) or end <= start:
             return end
         along = self._along(path, start, end)
+        if self.footprint is not None:
+            gap = max(floor - SAMPLE_SLACK_M - self.inner, LEAST_KEPT_M)
+            count = clear_places(self.world, path, start, along, outline(self.footprint), gap)
+            return float(along[count - 1]) if count else start
         near = np.flatnonzero(self.world.distance(path.at_distance(along)) < floor - SAMPLE_SLACK_M)
         if not near.size:
             return end
         return float(along[near[0] - 1]) if near[0] else start
+
+    def _body_seen(
+        self, footprint: Footprint, path: Path, start: float, along: Floats, floor: float
+    ) -> int:
+        """How many places of a path a polygon can take inside of what was seen, from the first."""
+        gap = PLACE_SPACING_RATIO * self.cell_size
+        kept = max(floor - self.inner, 0.0)
+        margin = min(BODY_RIM_RATIO * self.cell_size, kept + VISIBLE_DEPTH_RATIO * self.cell_size)
+        motion = body_motion(path, start, along, self.body, gap)
+        count = self.scans.body_count(motion, body_rim(footprint, margin, gap))
+        return int(motion.owners[count]) if count < len(motion.owners) else len(along)
 
     def _along(self, path: Path, start: float, end: float) -> Floats:
         """Places along a path, the same for every start: multiples of a length, and the end."""

@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.sensing.visible_region import seen_ahead
+from viaspline.kernels.sensing.visible_region import body_seen_ahead, seen_ahead
+from viaspline.robot.perception.body_front import BodyMotion, BodyRim
 from viaspline.robot.perception.lidar import Scan
 
 MIN_TURN_RAD = math.radians(20.0)
@@ -69,13 +71,27 @@ class ScanHistory:
             radius: Of the disc [m].
             gap: Things smaller than this may be missed [m].
         """
+        return int(seen_ahead(places, ahead, radius, gap, *self._packed)) if self.scans else 0
+
+    def body_count(self, motion: BodyMotion, rim: BodyRim) -> int:
+        """How many poses of a body's way it can take, from the first on, inside of what was seen.
+
+        Args:
+            motion: Of the body.
+            rim: Where it has to be free; things between its points may be missed.
+        """
         if not self.scans:
             return 0
+        poses, moves, _ = motion
+        return int(body_seen_ahead(poses, moves, rim.points, rim.normals, *self._packed))
+
+    @cached_property
+    def _packed(self) -> tuple[Floats, Floats, float, Floats]:
+        """All scans for kernels; there is one."""
         origins = np.array([scan.position[:2] for scan in self.scans], np.float64)
         firsts = np.array([scan.first_direction for scan in self.scans])
         lengths = np.maximum([scan.free for scan in self.scans], self.noise) - self.noise
-        step = float(self.scans[0].angle_increment)
-        return int(seen_ahead(places, ahead, radius, gap, origins, firsts, step, lengths))
+        return origins, firsts, float(self.scans[0].angle_increment), lengths
 
 
 def _gap(one: Scan, other: Scan) -> float:

@@ -18,6 +18,7 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.schedule import ReducedClearance
+from viaspline.robot.perception.body_room import room_along
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.world.world import World
@@ -55,14 +56,17 @@ def way_out(
         return None
     world, stop = context.knowledge.world, context.stop
     here = np.asarray(context.schedule.path.at_distance(stop))
-    place = _roomy_place(world, here, requirements.required, floor)
+    roomy = requirements.required if requirements.footprint is None else requirements.around
+    place = _roomy_place(world, here, roomy, floor)
     if place is None:
         return None
     share = np.arange(4.0)[:, None] / 3.0
     straight = by_way_of(context, (here + share * (place - here))[None])
     u = float(straight.parameter(stop))
     heading = float(context.schedule.path.heading(float(context.schedule.path.parameter(stop))))
-    if turn_conflict(world, heading, straight.spans[round(u)], requirements) != CLEAR:
+    kept = floor - requirements.radius - requirements.tracking_error
+    until_there = replace(requirements, clearance=kept)
+    if turn_conflict(world, heading, straight.spans[round(u)], until_there) != CLEAR:
         return None
     if round(u) in spans_on_wrong_side(straight, u, world, requirements):
         return None
@@ -105,7 +109,7 @@ def restore_clearance(
     path, start = candidate.solution.path, candidate.solution.changed_from
     world = context.knowledge.world
     places = np.arange(start, path.length, spacing)
-    roomy = np.flatnonzero(world.distance(path.at_distance(places)) >= requirements.required)
+    roomy = np.flatnonzero(room_along(world, path, places, requirements) >= requirements.required)
     if not roomy.size:
         return None
     at = float(places[roomy[0]])

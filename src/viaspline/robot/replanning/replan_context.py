@@ -20,6 +20,7 @@ from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.pending_search import FIRST_STAGE
 from viaspline.robot.navigation.progress import REST_MPS, SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
+from viaspline.robot.perception.body_room import room_along
 from viaspline.robot.run import Event
 from viaspline.world.world import World
 
@@ -272,8 +273,9 @@ class ReplanContext:
 
     def _keeps(self, floor: float, place: float) -> bool:
         """Whether a place of the path is so far from what is in the way [m]."""
-        point = np.asarray(self.schedule.path.at_distance(place))
-        return float(self.obstruction.world.distance(point)) >= floor - SAME_PLACE_M
+        world, path = self.obstruction.world, self.schedule.path
+        room = room_along(world, path, np.array([place]), self.requirements)
+        return float(room[0]) >= floor - SAME_PLACE_M
 
     def clear_leaves(self) -> list[float]:
         """Where a new path can leave this one while the robot rolls on [m]."""

@@ -20,6 +20,7 @@ from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLeg
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.pending_search import FIRST_STAGE
 from viaspline.robot.navigation.schedule import ReducedClearance, Schedule, Wait
+from viaspline.robot.perception.body_room import room_along
 from viaspline.robot.replanning.better_path import better_path, with_spare
 from viaspline.robot.replanning.deadline import (
     RETRY_INTERVAL_S,
@@ -234,9 +235,9 @@ def _way_out(context: ReplanContext, room: float, spared: Requirements) -> Repla
 def _room(context: ReplanContext, spacing: float) -> float:
     """Smallest distance to anything up to where the robot can stop [m]."""
     here = context.progress.distance
-    count = 2 + int((context.stop - here) / spacing)
-    places = context.schedule.path.at_distance(np.linspace(here, context.stop, count))
-    return float(np.min(context.obstruction.world.distance(places)))
+    along = np.linspace(here, context.stop, 2 + int((context.stop - here) / spacing))
+    world, path = context.obstruction.world, context.schedule.path
+    return float(np.min(room_along(world, path, along, context.requirements)))
 
 
 def _plain(refusal: PlanningError | str) -> str:

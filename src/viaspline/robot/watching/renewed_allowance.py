@@ -22,6 +22,7 @@ from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import rescheduled
 from viaspline.robot.navigation.schedule import ReducedClearance, Schedule
+from viaspline.robot.perception.body_room import room_along
 from viaspline.robot.replanning.deadline import with_time_to_search
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
@@ -168,12 +169,13 @@ def _candidate(context: ReplanContext) -> tuple[PathCandidate | None, float]:
     context = replace(context, task=replace(context.task, limits=limits))
     for leave in context.leaves:
         places = np.arange(leave, path.length, spacing)
-        roomy = np.flatnonzero(world.distance(path.at_distance(places)) >= requirements.required)
+        room = room_along(world, path, places, requirements)
+        roomy = np.flatnonzero(room >= requirements.required)
         if not roomy.size:
             continue
         at = float(places[roomy[0]])
         before = np.linspace(here, at, 2 + int((at - here) / spacing))
-        floor = float(np.min(world.distance(path.at_distance(before)))) - FLOOR_SLACK_M
+        floor = float(np.min(room_along(world, path, before, requirements))) - FLOOR_SLACK_M
         if floor < requirements.radius + requirements.tracking_error:
             return None, context.work  # it might touch something on the way there
         less = context
