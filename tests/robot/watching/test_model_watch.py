@@ -8,10 +8,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from viaspline.curve.path import Path
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.state import RobotState
+from viaspline.robot.watching.model_watch import watched_motion
+from viaspline.robot.watching.watch import Watch
+from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.retime import retime
 
 DRIVE = {"differential": {"track_m": 0.5}, "delay_s": 0.05, "lag_s": 0.05}
 GOOD = {"delay": 0.05, "lag": 0.05}
@@ -61,6 +68,31 @@ def test_a_machine_as_its_model_says_is_not_complained_of(
     assert done.nav.reached
     assert not {"slip", "lag", "pose_jump", "stale", "clock"} & set(done.kinds)
     assert drive is None or "deviation" not in done.kinds
+
+
+@given(st.floats(0.02, 1.0), st.floats(0.2, 3.0), st.floats(0.67, 1.0), st.floats(0.02, 0.1))
+@settings(deadline=None, max_examples=25)
+def test_a_robot_with_two_thirds_of_its_speed_does_not_slip_where_it_has_turned_either(
+    slalom_of: Any, accel: float, stand: float, share: float, period: float
+) -> None:
+    there = [(float(k), 0.0) for k in range(4)]
+    onward = [(3.0 - 0.6 * k, 0.8 * k) for k in range(4)]
+    path = Path([there, onward], [])
+    law = retime(path, Limits(max_speed=1.0, max_accel=accel), [Station(3.0, stand)])
+    nav = Navigator(slalom_of(drive=DRIVE), warm=False)
+    task, state = nav._task, nav._state
+    schedule = replace(state.schedule, path=path, trajectory=law, turns=(3.0,))
+    before = Watch()
+    for time in np.arange(0.0, law.end_time, period).tolist():
+        at, speed, _ = (float(x) for x in law.state_at(max(time - 0.05, 0.0)))
+        u = float(path.parameter(at))
+        place = tuple(np.asarray(path.evaluate(u)).tolist())
+        measured = RobotState(place, float(path.heading(u)), speed)
+        watch = replace(before, time=time, measured=measured, at=time)
+        motion = watched_motion(task, before, watch, state.progress, schedule, measured, time)
+        assert "slip" not in [event.kind for event in motion.events]
+        told = float(law.state_at(time)[1]) / share
+        before = motion.watch.having_given(time, told, 3.0)
 
 
 def moved_by(dx: float, dy: float, since: float) -> Any:

@@ -17,7 +17,12 @@ from viaspline.robot.watching.measured_motion import (
     slipping,
     waits_for,
 )
-from viaspline.robot.watching.true_place import TruePlace, is_there, true_place
+from viaspline.robot.watching.true_place import (
+    TruePlace,
+    is_held_at_turn,
+    is_there,
+    true_place,
+)
 from viaspline.robot.watching.watch import Watch
 
 LEAST_SPEED_MPS = 0.1
@@ -88,6 +93,8 @@ def watched_motion(
     events: tuple[Event, ...] = ()
     if jump is not None:
         watch, events = replace(watch, trail=()), (_jumped(jump, measured, time),)
+    if is_held_at_turn(schedule, place, should):
+        watch = replace(watch, trail=())
     watch, slips = slipping(task, watch, measured.position)
     waited = 0.0
     if task.model is None and last is not None and schedule.giving_up is None:

@@ -46,6 +46,19 @@ def is_there(schedule: Schedule, measured: RobotState, should: float) -> bool:
     return float(np.linalg.norm(np.asarray(measured.position) - place)) <= ON_PATH_M
 
 
+def is_held_at_turn(schedule: Schedule, place: TruePlace, should: float) -> bool:
+    """Whether a robot is taken to be at a place where it turns until it should be farther.
+
+    What it drives there can't be told from its place.
+
+    Args:
+        schedule: What it means to do.
+        place: Where it is on its path.
+        should: Distance along the path at which it should be [m].
+    """
+    return place.distance in schedule.turns and place.distance > should - PASSED_M
+
+
 def true_place(
     robot: RobotSpec,
     schedule: Schedule,
