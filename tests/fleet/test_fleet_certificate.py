@@ -119,6 +119,22 @@ def test_on_straight_lines_it_is_within_a_millimetre(seed: int) -> None:
     assert least - 1e-3 - 0.5 * SAMPLE_S * 4.0 <= found <= least + 1e-9
 
 
+@given(seeds)
+@settings(max_examples=10, deadline=None)
+def test_in_a_crowd_no_pair_is_missed_however_long_windows_last(seed: int) -> None:
+    """Some robots wait for long, some leave: windows grow, and shrink where many are near."""
+    rng = np.random.default_rng(seed)
+    drives = []
+    for _ in range(int(rng.integers(10, 30))):
+        points = rng.uniform(0, 60, (int(rng.integers(2, 5)), 2))
+        depart = float(rng.choice([0.0, 5.0, 60.0]) + rng.uniform(0, 5))
+        reach, leaves = float(rng.uniform(0.2, 1.2)), bool(rng.random() < 0.3)
+        drives.append(drive(points, depart, reach, leaves=leaves))
+    found, least = proven(drives), sampled(drives)
+    assert found.separation <= least + 1e-9
+    assert found.separation >= least - 0.1
+
+
 def test_what_is_kept_exactly_holds() -> None:
     lanes = [drive([(0, y), (40, y)], depart) for y, depart in ((0, 0.0), (2, 1.0), (4, 0.5))]
     found = proven(lanes)

@@ -8,9 +8,39 @@ Tested through ``fleet/test_fleet_certificate``.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.jit import inlined
+
+
+class DriveStage(NamedTuple):
+    """What is known of a stage.
+
+    Attributes:
+        x: Where it begins [m].
+        y: [m].
+        across: How far its chord goes in x [m].
+        up: And in y [m].
+        begin: When it is left for the next node [s].
+        end: When it ends [s].
+        speed: At its beginning, in chords [1/s].
+        rise: Half of its acceleration, in chords [1/s²].
+        error: How far the robot is from the point on the chord, at most [m]. That is the bow of the
+            curve, and how much farther the law goes than with constant acceleration. Where
+            acceleration changes, speed is convex or concave in time, and what that adds only grows.
+    """
+
+    x: float
+    y: float
+    across: float
+    up: float
+    begin: float
+    end: float
+    speed: float
+    rise: float
+    error: float
 
 
 @inlined
@@ -21,50 +51,28 @@ def stage_end(laws: PackedLaws, stage: int) -> float:
 
 
 @inlined
-def stage_place(
-    courses: PackedCourses, laws: PackedLaws, stage: int, instant: float
-) -> tuple[float, float]:
-    """The point on the chord at an instant of a stage [m]."""
+def stage_of(courses: PackedCourses, laws: PackedLaws, stage: int) -> DriveStage:
+    """What is known of a stage."""
     k = stage >> 1
     x, y = courses.place[k, 0], courses.place[k, 1]
     if stage & 1 == 0:
-        return x, y
-    lasts, late = laws.arrive[k + 1] - laws.leave[k], instant - laws.leave[k]
-    length = courses.distance[k + 1] - courses.distance[k]
-    part = 1.0
-    if late < lasts and length > 0.0:
-        rise = (laws.speed[k + 1] - laws.speed[k]) / lasts
-        part = min(max((laws.speed[k] + 0.5 * rise * late) * late / length, 0.0), 1.0)
-    return x + part * (courses.place[k + 1, 0] - x), y + part * (courses.place[k + 1, 1] - y)
+        return DriveStage(x, y, 0.0, 0.0, laws.leave[k], laws.leave[k], 0.0, 0.0, 0.0)
+    begin, end = laws.leave[k], laws.arrive[k + 1]
+    lasts, length = end - begin, courses.distance[k + 1] - courses.distance[k]
+    speed, rise = 0.0, 0.0
+    if lasts > 0.0 and length > 0.0:
+        speed = laws.speed[k] / length
+        rise = 0.5 * (laws.speed[k + 1] - laws.speed[k]) / (lasts * length)
+    error = courses.bow[k] + abs(length - 0.5 * (laws.speed[k] + laws.speed[k + 1]) * lasts)
+    across, up = courses.place[k + 1, 0] - x, courses.place[k + 1, 1] - y
+    return DriveStage(x, y, across, up, begin, end, speed, rise, error)
 
 
 @inlined
-def stage_acceleration(courses: PackedCourses, laws: PackedLaws, stage: int) -> tuple[float, float]:
-    """The acceleration along the chord in a stage [m/s²]."""
-    k = stage >> 1
-    if stage & 1 == 0:
-        return 0.0, 0.0
-    lasts = laws.arrive[k + 1] - laws.leave[k]
-    length = courses.distance[k + 1] - courses.distance[k]
-    if not (lasts > 0.0 and length > 0.0):
-        return 0.0, 0.0
-    share = (laws.speed[k + 1] - laws.speed[k]) / (lasts * length)
-    return (
-        share * (courses.place[k + 1, 0] - courses.place[k, 0]),
-        share * (courses.place[k + 1, 1] - courses.place[k, 1]),
-    )
-
-
-@inlined
-def stage_error(courses: PackedCourses, laws: PackedLaws, stage: int) -> float:
-    """How far the robot is from the point on the chord in a stage, at most [m].
-
-    That is the bow of the curve, and how much farther the law goes than with constant acceleration.
-    Where acceleration changes, speed is convex or concave in time, and what that adds only grows.
-    """
-    k = stage >> 1
-    if stage & 1 == 0:
-        return 0.0
-    length = courses.distance[k + 1] - courses.distance[k]
-    lasts = laws.arrive[k + 1] - laws.leave[k]
-    return courses.bow[k] + abs(length - 0.5 * (laws.speed[k] + laws.speed[k + 1]) * lasts)
+def place_in(stage: DriveStage, instant: float) -> tuple[float, float]:
+    """The point on the chord at an instant of a stage [m]."""
+    part = 1.0  # of nothing for one that stays
+    if stage.begin <= instant < stage.end:
+        late = instant - stage.begin
+        part = min(max((stage.speed + stage.rise * late) * late, 0.0), 1.0)
+    return stage.x + part * stage.across, stage.y + part * stage.up

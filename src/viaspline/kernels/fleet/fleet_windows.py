@@ -1,4 +1,10 @@
-"""Windows of time in which robots of a fleet are looked at: what holds their ways, in a grid.
+"""Windows of time in which robots of a fleet are looked at: discs that hold their ways, in a grid.
+
+A window has parts, so that pairs which are far apart all the while are seldom met, and others are
+looked at for a short while each.
+
+From one node of its course to another one a curve of length L is nowhere farther than L / 2 from
+the middle between them, for the ways to both ends are no longer than L together.
 
 Tested through ``fleet/test_fleet_certificate``.
 """
@@ -11,38 +17,37 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.fleet_motion import stage_end, stage_error, stage_place
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.jit import inlined, inner
 
-WINDOW_REACHES = 2.0  # how far the fastest robot goes in a window, in mean reaches
+PARTS: Final = 8  # of a window
+PART_REACHES = 2.0  # how far robots go in a part of the first window in the mean, in mean reaches
 MOST_WINDOWS = 200_000
 PRIME_X: Final = 73856093
 PRIME_Y: Final = 19349663
+GONE: Final = -1  # the node of a robot that isn't in the world
 
 
-class Windows(NamedTuple):
-    """What robots do in some windows of time behind each other: row w n + r is of robot r in w.
+class FleetWindow(NamedTuple):
+    """What robots do in a window of time.
 
     Attributes:
-        reached: In which stage each robot is when the next windows begin, (n, 1).
-        stage: In which it is when a window begins; -1 where it has left, (windows n, 1).
-        box: What holds its way in a window, grown by its reach: (x and y, from and to) [m],
-            (windows n, 4).
-        middle: Of that box [m], (windows n, 2).
-        widest: The widest extent of boxes in each window [m], (windows, 1).
+        times: When its parts begin, and the last one ends [s], (PARTS + 1, 1).
+        node: The node at which each robot is as a part begins, or has been last, and as the last
+            one ends; or GONE, (n, PARTS + 1).
+        part: What holds its way in each part: x, y, radius [m], (n, 3 PARTS).
+        disc: What holds its way in the whole window, alike, (n, 3).
     """
 
-    reached: Ints
-    stage: Ints
-    box: Floats
-    middle: Floats
-    widest: Floats
+    times: Floats
+    node: Ints
+    part: Floats
+    disc: Floats
 
 
 class WindowGrid(NamedTuple):
-    """The robots of one window by the squares in which the middles of their boxes lie.
+    """The robots of one window by the squares in which the middles of their discs lie.
 
     Attributes:
         square: (n, 2).
@@ -56,71 +61,56 @@ class WindowGrid(NamedTuple):
 
 
 @inlined
-def _advanced(laws: PackedLaws, stage: int, last: int, instant: float) -> int:
-    """The stage at an instant, from an earlier one on."""
-    while stage < last and stage_end(laws, stage) <= instant:
-        stage += 1
-    return stage
+def disc_of(courses: PackedCourses, begin: int, end: int) -> tuple[float, float, float]:
+    """What holds a course between two of its nodes: x, y, radius [m]."""
+    place = courses.place
+    return (
+        0.5 * (place[begin, 0] + place[end, 0]), 0.5 * (place[begin, 1] + place[end, 1]),
+        0.5 * (courses.distance[end] - courses.distance[begin]),
+    )  # fmt: skip
+
+
+@inlined
+def _put_disc(table: Floats, row: int, column: int, disc: tuple[float, float, float]) -> None:
+    table[row, column], table[row, column + 1], table[row, column + 2] = disc
 
 
 @inner
-def cover_windows(
-    courses: PackedCourses, laws: PackedLaws, times: Floats, count: int, more: float, less: float,
-    now: Windows,
-) -> None:  # fmt: skip
-    """Move all robots on through some windows and cover their ways in each.
-
-    Robot by robot, as what is known of a robot lies together.
+def cover_window(courses: PackedCourses, laws: PackedLaws, now: FleetWindow) -> float:
+    """Move all robots on into a window that begins where the one before ended, and cover its ways.
 
     Args:
         courses: PackedCourses.
         laws: PackedLaws.
-        times: When each window begins, and the last one ends [s], (count + 1, 1) or more.
-        count: How many windows.
-        more: By how much boxes are grown beyond reaches [m].
-        less: How much of that is left away again, but in their extents [m].
-        now: Filled.
+        now: Its times, and nodes at its beginning or before; filled.
+
+    Returns:
+        How wide the widest disc of a whole window is, grown by its robot's reach [m].
     """
-    robots = courses.reach.shape[0]
-    for window in range(count):
-        now.widest[window, 0] = 0.0
-    for robot in range(robots):
-        if not laws.is_timed[robot]:
-            for window in range(count):
-                now.stage[window * robots + robot, 0] = -1
-            continue
-        last = 2 * (courses.first[robot + 1] - 1)
-        reached = now.reached[robot, 0]
-        for window in range(count):
-            begin, end, row = times[window, 0], times[window + 1, 0], window * robots + robot
-            stage = _advanced(laws, reached, last, begin)
-            now.stage[row, 0] = stage
-            if stage == last and laws.leave[stage >> 1] < begin:
-                now.stage[row, 0] = -1  # it has left
-                reached = stage
-                continue
-            x, y = stage_place(courses, laws, stage, begin)
-            low_x, low_y, high_x, high_y = x, y, x, y
-            error = stage_error(courses, laws, stage)
-            while stage < last and stage_end(laws, stage) < end:
-                stage += 1
-                if stage & 1:  # it goes on from where it was
-                    error = max(error, stage_error(courses, laws, stage))
-                else:
-                    x, y = courses.place[stage >> 1, 0], courses.place[stage >> 1, 1]
-                    low_x, low_y = min(low_x, x), min(low_y, y)
-                    high_x, high_y = max(high_x, x), max(high_y, y)
-            reached = stage
-            x, y = stage_place(courses, laws, stage, end)
-            grown = courses.reach[robot] + error + more
-            low_x, low_y = min(low_x, x) - grown, min(low_y, y) - grown
-            high_x, high_y = max(high_x, x) + grown, max(high_y, y) + grown
-            now.middle[row, 0], now.middle[row, 1] = 0.5 * (low_x + high_x), 0.5 * (low_y + high_y)
-            now.box[row, 0], now.box[row, 1] = low_x + less, low_y + less
-            now.box[row, 2], now.box[row, 3] = high_x - less, high_y - less
-            extent = max(high_x - low_x, high_y - low_y)
-            now.widest[window, 0] = max(now.widest[window, 0], extent)
-        now.reached[robot, 0] = reached
+    widest, node, times = 0.0, now.node, now.times
+    for robot in range(courses.reach.shape[0]):
+        at, last = node[robot, PARTS], courses.first[robot + 1] - 1
+        begin, until = at, at
+        for part in range(PARTS + 1):
+            instant = times[part, 0]
+            while at != GONE and at < last and laws.arrive[at + 1] <= instant:
+                at += 1
+            if at == last and laws.leave[last] < instant:
+                at = GONE  # from now on
+            node[robot, part] = at
+            if part == 0:
+                begin, until = at, at
+            elif node[robot, part - 1] != GONE:
+                until = last
+                if at != GONE:
+                    until = at if at == last or laws.leave[at] >= instant else at + 1
+                disc = disc_of(courses, node[robot, part - 1], until)
+                _put_disc(now.part, robot, 3 * (part - 1), disc)
+        if begin != GONE:
+            disc = disc_of(courses, begin, until)
+            _put_disc(now.disc, robot, 0, disc)
+            widest = max(widest, 2.0 * (disc[2] + courses.reach[robot]))
+    return widest
 
 
 @inlined
@@ -130,12 +120,11 @@ def bucket_of(x: int, y: int, mask: int) -> int:
 
 
 @inner
-def file_window(now: Windows, first: int, side: float, grid: WindowGrid) -> None:
-    """Put the boxes of a window into the grid, each by its middle.
+def file_window(now: FleetWindow, side: float, grid: WindowGrid) -> None:
+    """Put the discs of a window into the grid, each by its middle.
 
     Args:
-        now: The windows.
-        first: The row of the first robot in it.
+        now: The window.
         side: Of the squares [m].
         grid: Filled; empty, or as a window before left it.
     """
@@ -143,34 +132,34 @@ def file_window(now: Windows, first: int, side: float, grid: WindowGrid) -> None
     for robot in range(grid.following.shape[0]):  # those of the window before
         grid.head[bucket_of(grid.square[robot, 0], grid.square[robot, 1], mask), 0] = -1
     for robot in range(grid.following.shape[0]):
-        row = first + robot
-        if now.stage[row, 0] >= 0:
-            x = math.floor(now.middle[row, 0] / side)
-            y = math.floor(now.middle[row, 1] / side)
-            grid.square[robot, 0], grid.square[robot, 1] = x, y
-            bucket = bucket_of(x, y, mask)
-            grid.following[robot, 0] = grid.head[bucket, 0]
-            grid.head[bucket, 0] = robot
-        else:
-            grid.following[robot, 0] = -1
+        if now.node[robot, 0] == GONE:
+            continue
+        x, y = math.floor(now.disc[robot, 0] / side), math.floor(now.disc[robot, 1] / side)
+        grid.square[robot, 0], grid.square[robot, 1] = x, y
+        bucket = bucket_of(x, y, mask)
+        grid.following[robot, 0] = grid.head[bucket, 0]
+        grid.head[bucket, 0] = robot
 
 
 @inner
 def window_times(courses: PackedCourses, laws: PackedLaws) -> tuple[float, float, float]:
-    """When the first robot departs, when the last one arrives, and for how long a window lasts."""
-    begin, end, fastest, reach, count = np.inf, -np.inf, 0.0, 0.0, 0
+    """When the first robot departs, when the last one arrives, and for how long a part lasts."""
+    begin, end, speed, reach = np.inf, -np.inf, 0.0, 0.0
     for robot in range(courses.reach.shape[0]):
         if laws.is_timed[robot]:
             first, last = courses.first[robot], courses.first[robot + 1] - 1
-            reach, count = reach + courses.reach[robot], count + 1
+            reach += courses.reach[robot]
             begin = min(begin, laws.leave[first])
-            for node in range(first, last + 1):
-                fastest = max(fastest, laws.speed[node])
-                if laws.arrive[node] < np.inf:  # else it stands at its start for ever
-                    end = max(end, laws.arrive[node])
+            while last > first and laws.arrive[last] == np.inf:
+                last -= 1  # it stands for ever before that
+            if laws.arrive[last] < np.inf:
+                end = max(end, laws.arrive[last])
+                drives = laws.arrive[last] - laws.leave[first]
+                if drives > 0.0:
+                    speed += courses.distance[last] / drives
     if not begin <= end:
         return 0.0, 0.0, 0.0
     lasts = end - begin
-    if fastest > 0.0 and reach > 0.0:
-        lasts = WINDOW_REACHES * reach / (count * fastest)
-    return begin, end, max(lasts, (end - begin) / MOST_WINDOWS)
+    if speed > 0.0 and reach > 0.0:
+        lasts = min(lasts, PART_REACHES * reach / speed)
+    return begin, end, lasts
