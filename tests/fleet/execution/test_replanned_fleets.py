@@ -303,6 +303,41 @@ def test_who_is_sent_onto_the_way_of_one_that_waits_for_it_lets_that_one_pass() 
     assert np.allclose(drive.at["r0"], [20, 12], atol=0.1)
 
 
+@settings(max_examples=8, deadline=None)
+@given(st.floats(3.15, 3.4), st.floats(0.0, 0.95))
+def test_who_is_sent_elsewhere_is_kept_away_from_up_to_where_it_may_creep_meanwhile(
+    apart: float, share: float
+) -> None:
+    """It stands short of what it is granted, before one that comes near the end of that only."""
+    cart, kept = {"radius_m": 0.3, "max_speed_mps": 2.0}, 3.3
+    found = vs.Fleet.model_validate({
+        "separation_m": 1.0, "robots": {"small": cart, "big": {**cart, "radius_m": 2.0}}, "fleet": [
+            {"name": "first", "robot": "small", "route": {"start": [10, 0], "goal": [60, 0]}},
+            {"name": "big", "robot": "big", "route": {"start": [20, -20], "goal": [20, 20]}},
+            {"name": "third", "robot": "small", "rest": "leave", "route": {
+                "start": [34, -12], "depart_s": 25.0,
+                "goal": [20 + 0.866 * apart, -3.659 + 0.5 * apart],
+            }},
+        ],
+    })  # fmt: skip
+    nav = vs.FleetNavigator(vs.plan_fleet(found), stops_within_m=0.1, warm=False)
+    late = [vs.ProgressReport("first", 0.0, 0.0), vs.ProgressReport("third", 0.0, 0.0)]
+    commands, nav = nav.step([*late, vs.ProgressReport("big", 0.0, 0.0)], 0.0)
+    assert commands["big"].waits_for == "first"
+    until = commands["big"].granted
+    stands = vs.ProgressReport("big", 20.0, until - 0.1 * share)
+    nav = nav.step([stands], 20.0)[1]
+    may_be = nav.paths["big"].path.at_distance(np.linspace(stands.distance, until, 11))
+    try:
+        nav = nav.rerouted("big", Route.model_validate({"start": [0, 0], "goal": [20, -30]}))
+    except GaveUpError:  # the third one may be too near already
+        assert 0.1 * share > 0.02
+    granted = nav.step([], 20.1)[0]["third"].granted
+    third = nav.paths["third"].path
+    goes = third.at_distance(np.linspace(0.0, min(granted, third.length), 2000))
+    assert np.hypot(*np.moveaxis(may_be[:, None] - goes, -1, 0)).min() >= kept
+
+
 def test_who_was_asked_to_stop_goes_on_when_it_is_told_to() -> None:
     drive = start(*CROSS)
     drive.until(6.0)

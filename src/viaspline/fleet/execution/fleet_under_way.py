@@ -154,8 +154,16 @@ class FleetUnderWay:
             return None
         return names[max(chosen, key=lambda r: (members[names[r]].priority, -r))]
 
-    def joined(self, member: FleetMember, event: FleetEvent) -> FleetUnderWay:
-        """With a robot that begins a path of its own now, in place of one of its name."""
+    def joined(
+        self, member: FleetMember, event: FleetEvent, off_start: float = 0.0
+    ) -> FleetUnderWay:
+        """With a robot that begins a path of its own now, in place of one of its name.
+
+        Args:
+            member: The robot.
+            event: What is told of it.
+            off_start: How far from its start it may be [m].
+        """
         missions, fleet, state = self.known, self.fleet, self.state
         member = _departing(member, max(member.mission.route.depart_s, self.now))
         plan = laid_now(fleet, member, self._sought(member.name, member.mission))
@@ -163,11 +171,12 @@ class FleetUnderWay:
         leaves = fleet.names.index(member.name) if member.name in fleet.names else None
         laws = expected_laws(fleet, state, leaves)
         try:
-            changed = self.along(joined_fleet(fleet, laws, let_in, member, plan))
+            changed = self.along(joined_fleet(fleet, laws, let_in, member, plan, off_start))
         except GeometryError:  # too tight for robots that stop short: it lets all others pass first
             ends = laws.arrive[fleet.courses.packed.first[1:] - 1]
             last = float(ends[np.isfinite(ends)].max(initial=self.now))
-            changed = self.along(joined_fleet(fleet, laws, let_in, _departing(member, last), plan))
+            member_last = _departing(member, last)
+            changed = self.along(joined_fleet(fleet, laws, let_in, member_last, plan, off_start))
         changed = replace(changed, missions=missions.with_way(member, plan))
         return changed._let_out(member).told(event)
 
@@ -198,17 +207,21 @@ class FleetUnderWay:
         return sent_from(missions.members[name], plan, left_of_route(plan, place), place)
 
     def _sent(self, name: str, mission: Mission, words: str) -> FleetUnderWay:
-        """With a robot that has another mission from now on."""
+        """With a robot that has another mission from now on.
+
+        Until it hears of that it may go on to the end of what it was granted.
+        """
         member = replace(self.known.members[name], mission=mission)
         robot = index_of(self.fleet.names, name)
-        place = float(self.state.places[robot] + self.state.driven[robot])
-        event = FleetEvent("re-planned", self.now, name, words, None, place)
+        place, until = float(self.state.places[robot]), float(self.state.packed.promised[robot])
+        along, creeps = place + float(self.state.driven[robot]), max(until - place, 0.0)
+        event = FleetEvent("re-planned", self.now, name, words, None, along)
         try:
-            return self.joined(member, event)
+            return self.joined(member, event, creeps)
         except GaveUpError:
             if self.fleet.rounds is None or not self.fleet.rounds[robot]:
                 raise
-        return self._without_its_laps(robot).joined(member, event)
+        return self._without_its_laps(robot).joined(member, event, creeps)
 
     def _without_its_laps(self, robot: int) -> FleetUnderWay:
         """With patrols counted back as if one that stands, and drives no more laps, weren't there.

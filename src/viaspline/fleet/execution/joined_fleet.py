@@ -46,8 +46,9 @@ class LetIn:
 
 
 def joined_fleet(
-    fleet: DrivenFleet, laws: PackedLaws, let_in: LetIn, member: FleetMember, plan: AnyPlan
-) -> DrivenFleet:
+    fleet: DrivenFleet, laws: PackedLaws, let_in: LetIn, member: FleetMember, plan: AnyPlan,
+    off_start: float = 0.0,
+) -> DrivenFleet:  # fmt: skip
     """A fleet with one robot more, or with one that has another path.
 
     The robot is timed among the others, none of whose laws changes, and so that it passes nobody
@@ -60,11 +61,12 @@ def joined_fleet(
         let_in: Where they may be already.
         member: The robot; one of its name is replaced.
         plan: Its path, with the law that it would drive alone; it departs when its mission says.
+        off_start: How far from its start it may be until it is on its way [m].
 
     Raises:
         GaveUpError: It can't be timed along its path.
     """
-    grown = _grown(fleet, laws, member, plan)
+    grown = _grown(fleet, laws, member, plan, off_start)
     robot = grown.names.index(member.name)
     others, own, theirs = _crossed(grown, robot)
     may_be_in = let_in.until[others] >= theirs[:, 0]
@@ -150,9 +152,12 @@ class _Place:
         return np.concatenate((before[: self.robot], new, before[self.robot + 1 :]))
 
 
-def _grown(fleet: DrivenFleet, laws: PackedLaws, member: FleetMember, plan: AnyPlan) -> DrivenFleet:
-    """The fleet with the robot's path, which has no law yet."""
+def _grown(
+    fleet: DrivenFleet, laws: PackedLaws, member: FleetMember, plan: AnyPlan, off_start: float
+) -> DrivenFleet:
+    """The fleet with the robot's path, which has no law yet; see ``joined_fleet``."""
     fresh = courses_of({member.name: plan}, fleet.separation)
+    fresh.packed.bow[0] += off_start  # it may be so far beside its first cell
     mine, old, count = fresh.packed, fleet.courses.packed, len(fleet.names)
     is_new = member.name not in fleet.names
     robot = count if is_new else fleet.names.index(member.name)
