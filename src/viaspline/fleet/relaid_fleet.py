@@ -3,8 +3,6 @@
 Each is laid in space and time among the robots that are timed. Then all are timed anew along the
 paths that came of it; where that leaves some blocked, the laws with which the paths were laid are
 kept, if they are proven apart and give every crossing an order.
-
-Tested through ``fleet/test_plan_fleet``.
 """
 
 from __future__ import annotations
@@ -88,7 +86,7 @@ def _as_laid(
     """
     courses = courses_of(found, fleet.separation_m)
     crossings = crossings_of(courses)
-    plans = tuple(found.values())
+    plans = tuple(replace(plan, timed=None) for plan in found.values())  # others are no obstacles
     rides = rides_of(ways.members, plans, courses)
     packed = static_laws(courses, [plan.trajectory for plan in plans]).packed
     for robot, plan in enumerate(plans):
