@@ -82,6 +82,7 @@ def crossings_of(
     boxes = near_boxes(packed, pieces, first, near, max_boxes)
     if len(boxes.cell) > max_boxes:
         raise _too_many(courses, pieces, np.diff(first), max_boxes)
+    del pieces, grid, first, near  # boxes take much more yet until they are joined
     pairs, span, box_first, crossing, count = joined_boxes(packed, boxes)
     return FleetCrossings(
         PackedCrossings(

@@ -115,7 +115,8 @@ def joined_boxes(courses: PackedCourses, boxes: RawBoxes) -> tuple[Ints, Floats,
         found = _name(by_other, ours, all_runs, runs, span, before)
         for row in range(before, found):
             robots[row, 0], robots[row, 1] = groups[one, ROBOT], groups[two, ROBOT]
-    first, crossing = new_ints(boxes.first.shape[0], 1), new_ints(boxes.cell.shape[0], 1)
+    first = new_ints(boxes.first.shape[0], 1)
+    crossing = by_other.cell  # its memory: nobody asks for cells any more
     kept = keep_crossing(boxes, by_other, first, crossing)
     return (
         sized_ints(robots, found, found), sized_floats(span, found, found), first[:, 0],
