@@ -90,6 +90,7 @@ def _meet_seldom() -> None:
 
     from viaspline.curve.path import Path
     from viaspline.kernels.routing.narrow_gaps import narrow_places
+    from viaspline.kernels.world.segment import segment_distance
     from viaspline.mission.shapes.obstacle import Obstacle
     from viaspline.planning.problem.requirements import Requirements
     from viaspline.planning.routing.bottleneck import bottleneck_between
@@ -101,6 +102,7 @@ def _meet_seldom() -> None:
 
     rock = Obstacle(circle={"center": (5, 1), "radius": 0.5})
     narrow_places(World([rock]).packed, np.array([[0.0, 0.0], [9.0, 0.0]]), 0.3)
+    segment_distance(World([rock]).packed, 0.0, 0.0, 9.0, 0.0, np.inf)
     walled = World([rock], bounds=(0.0, -1.0, 10.0, 2.0))
     bottleneck_between(walled, np.array([1.0, 0.0]), np.array([9.0, 0.0]), 2.0)
     ends = np.array([[0.0, 0.0, 0.0, 0.0, np.nan, 0.5], [3.0, 1.0, 0.0, 0.0, np.nan, 0.5]])
