@@ -21,6 +21,7 @@ import numpy as np
 import shapely
 from oracle import Box, distances_to, inside_bounds, verdict
 from random_drives import ROBOTS
+from shapely_bodies import bodies_at, shape_of
 from steps import Steps, measured
 
 import viaspline as vs
@@ -159,21 +160,12 @@ def _shape(thing) -> dict:
 def least_gap(run: vs.Run) -> float:
     """From the body as it was driven to the nearest thing [m]."""
     world, robot = run.plan.mission.world, run.plan.mission.robot
-    things = shapely.union_all([_drawn(thing) for thing in (*world.known, *world.unseen)])
+    things = shapely.union_all([shape_of(thing) for thing in (*world.known, *world.unseen)])
     places = np.asarray(run.positions)
     if robot.footprint is None:
         return float(shapely.distance(shapely.points(places), things).min()) - robot.radius_m
-    x, y = np.array(robot.footprint).T
-    c, s = np.cos(run.headings)[:, None], np.sin(run.headings)[:, None]
-    corners = (places[:, :1] + c * x - s * y, places[:, 1:2] + s * x + c * y)
-    bodies = shapely.polygons(np.stack(corners, axis=-1))
+    bodies = bodies_at(robot.footprint, places, run.headings)
     return float(shapely.distance(bodies, things).min())
-
-
-def _drawn(thing: vs.Obstacle) -> shapely.Geometry:
-    if thing.circle is None:
-        return shapely.Polygon(thing.polygon)
-    return shapely.Point(thing.circle.center).buffer(thing.circle.radius, 256)
 
 
 def main(count: int = 60, first: int = 0) -> None:

@@ -16,7 +16,7 @@ import time
 
 import numpy as np
 import shapely
-from shapely import affinity
+from shapely_bodies import bodies_at, shape_of
 
 import viaspline as vs
 
@@ -64,14 +64,6 @@ def yard(rng: np.random.Generator, length: float, door: float) -> tuple[list, fl
     return [*walls, *things], x, x + thick
 
 
-def shape_of(obstacle: vs.Obstacle) -> shapely.Geometry:
-    """An obstacle for shapely: a disc as a polygon round it."""
-    if obstacle.circle is None:
-        return shapely.Polygon(obstacle.polygon)
-    outside = obstacle.circle.radius / np.cos(np.pi / 512)
-    return shapely.Point(obstacle.circle.center).buffer(outside, quad_segs=128)
-
-
 def mission(seed: int, least: float, most: float) -> vs.Mission:
     """A mission of a seed; a place that would lie in the way of something is drawn again."""
     rng = np.random.default_rng(seed)
@@ -99,12 +91,8 @@ def nearest(asked: vs.Mission, plan: vs.Plan) -> float:
     """How near the body comes to anything on its path [m]."""
     path = plan.path
     at = np.linspace(*path.domain, int(path.length / SAMPLE_M))
-    body = shapely.Polygon(asked.robot.footprint)
     things = shapely.union_all([shape_of(one) for one in asked.world.known])
-    swept = [
-        affinity.translate(affinity.rotate(body, turn, (0, 0), use_radians=True), *place)
-        for place, turn in zip(path.evaluate(at).tolist(), path.heading(at).tolist(), strict=True)
-    ]
+    swept = bodies_at(asked.robot.footprint, path.evaluate(at), path.heading(at))
     return float(shapely.distance(things, swept).min())
 
 

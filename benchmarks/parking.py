@@ -22,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 import shapely
-from shapely import affinity
+from shapely_bodies import bodies_at
 
 import viaspline as vs
 from viaspline.curve.piecewise import PiecewiseCubic
@@ -49,28 +49,24 @@ def outline(file: Path, rear: float | None) -> tuple[tuple[float, float], ...]:
     return tuple(map(tuple, (ring - at).tolist()))
 
 
-def placed(body: shapely.Polygon, x: float, y: float, heading: float) -> shapely.Polygon:
-    turned = affinity.rotate(body, heading, origin=(0, 0), use_radians=True)
-    return affinity.translate(turned, x, y)
-
-
-def poses(walls, body, box, kept: float, count: int, seed: int) -> list[Pose]:
+def poses(walls, footprint, box, kept: float, count: int, seed: int) -> list[Pose]:
     """Poses drawn at random in which the body keeps its clearance and a little more."""
     random = np.random.default_rng(seed)
     found: list[Pose] = []
     while len(found) < count:
         pose = Pose(*random.uniform(box[:2], box[2:]).tolist(), random.uniform(-math.pi, math.pi))
-        if walls.distance(placed(body, pose.x, pose.y, pose.heading)) > 1.1 * kept + 0.1:
+        (placed,) = bodies_at(footprint, [(pose.x, pose.y)], [pose.heading])
+        if walls.distance(placed) > 1.1 * kept + 0.1:
             found.append(pose)
     return found
 
 
-def least_gap(walls, body, spans) -> float:
+def least_gap(walls, footprint, spans) -> float:
     """Of the body on its way to the walls, by brute force [m]."""
     curve = PiecewiseCubic(spans)
     at = np.linspace(*curve.domain, 2 + int(1.5 * curve.length / STEP))
-    where = zip(curve.evaluate(at), curve.heading(at), strict=True)
-    return min(walls.distance(placed(body, *place.tolist(), h)) for place, h in where)
+    swept = bodies_at(footprint, curve.evaluate(at), curve.heading(at))
+    return float(shapely.distance(walls, swept).min())
 
 
 def main(folder: str, pairs: str = str(PAIRS)) -> None:
@@ -90,15 +86,14 @@ def main(folder: str, pairs: str = str(PAIRS)) -> None:
         footprint = outline(mazes / f"{robot}.svg", rear)
         inner = RobotSpec(footprint=footprint).inner_radius
         brief = Requirements(radius=inner, clearance=CLEARANCE, footprint=footprint)
-        body = shapely.Polygon(footprint)
-        ends = poses(walls, body, box, CLEARANCE, 2 * int(pairs), seed=1)
+        ends = poses(walls, footprint, box, CLEARANCE, 2 * int(pairs), seed=1)
         run = [
             one(world, brief, rho, ramp, a, b) for a, b in zip(ends[::2], ends[1::2], strict=True)
         ]
         chains = [found for found, _ in run if isinstance(found, Chain)]
         reasons = Counter(found.reason.name for found, _ in run if not isinstance(found, Chain))
         times = np.array([spent for _, spent in run])
-        gap = min((least_gap(walls, body, chain.spans) for chain in chains), default=math.nan)
+        gap = min((least_gap(walls, footprint, chain.spans) for chain in chains), default=math.nan)
         figures = (
             f"{len(run):11d}{len(chains):11d}{np.median(times):11.0f}{times.max():11.0f}"
             f"{sum(chain.length for chain in chains):11.1f}{gap:11.4f}"
