@@ -9,10 +9,9 @@ from viaspline.planning.problem.method import GaveUp, Outcome, Refusal
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.work_budget import GAPS_OBSTACLE_S, GAPS_S
 from viaspline.planning.routing.bottleneck import Bottleneck, body_bottleneck
+from viaspline.planning.routing.gap_graph import is_soon_made
 from viaspline.planning.routing.leg_refusals import explain_narrow_leg
 from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
-from viaspline.planning.turning.hybrid_astar.closed_gaps import MAX_GAP_OBSTACLES
-from viaspline.world.world import World
 
 
 @dataclass(frozen=True)
@@ -28,7 +27,8 @@ class GapsForBody:
         path = problem.path
         sequence, world, requirements = path.sequence, path.world, path.requirements
         is_disc = requirements.narrowest_gap <= 2.0 * requirements.required
-        if is_disc or (requirements.budget is not None and _takes_long(world)):
+        is_under_way = requirements.budget is not None
+        if is_disc or (is_under_way and not is_soon_made(world)):
             return GaveUp(())
         for leg in range(len(sequence.legs)):
             gap = _bottleneck(path, leg)
@@ -39,13 +39,8 @@ class GapsForBody:
         return GaveUp(())
 
 
-def _takes_long(world: World) -> bool:
-    """Whether a robot under way has no time for it."""
-    return len(world) > MAX_GAP_OBSTACLES or bool(world.are_maps.any())
-
-
 def _bottleneck(path: DrivenProblem, leg: int) -> Bottleneck | None:
-    """What closes a leg for the body, if anything does."""
+    """What closes a leg for the body, if anything does: the same with turns of any radius."""
     world, requirements = path.world, path.requirements
     start, goal = (via.at[:2] for via in path.sequence.ends(leg))
 
@@ -53,4 +48,4 @@ def _bottleneck(path: DrivenProblem, leg: int) -> Bottleneck | None:
         requirements.spend(GAPS_S + GAPS_OBSTACLE_S * len(world))
         return body_bottleneck(world, start, goal, requirements)
 
-    return requirements.once(("gaps for body", world, *start.tolist(), *goal.tolist()), told)
+    return requirements.recalled(("gaps for body", world, *start.tolist(), *goal.tolist()), told)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -19,6 +20,14 @@ from viaspline.planning.routing.gap_links import (
 )
 from viaspline.planning.routing.map_links import MapPieces
 from viaspline.world.world import World
+
+MAX_GAP_OBSTACLES: Final = 1000
+"""Whose gaps a search has the time to measure."""
+
+
+def is_soon_made(world: World) -> bool:
+    """Whether the gaps of a world are few: not among too many things, and not on maps."""
+    return len(world) <= MAX_GAP_OBSTACLES and not world.are_maps.any()
 
 
 @dataclass(frozen=True)

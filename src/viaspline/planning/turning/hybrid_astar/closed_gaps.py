@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.collision_cache import HALF_DIAGONAL_CELLS
-from viaspline.planning.routing.gap_graph import GapGraph
+from viaspline.planning.routing.gap_graph import GapGraph, is_soon_made
 from viaspline.world.world import World
-
-MAX_GAP_OBSTACLES: Final = 1000
-"""In a window, whose gaps are measured."""
 
 
 def closed_gaps(world: World, inner: float, side: float) -> Floats:
@@ -25,7 +20,7 @@ def closed_gaps(world: World, inner: float, side: float) -> Floats:
         inner: Distance that the reference point keeps at least [m].
         side: Of a cell of the lattice [m].
     """
-    if not 0 < len(world) <= MAX_GAP_OBSTACLES or world.are_maps.any():
+    if not len(world) or not is_soon_made(world):
         return np.empty((0, 4))
     # a cell is blocked whose middle is nearer than half a diagonal less than what is kept; those on
     # the line across a gap have theirs half a diagonal beside it
