@@ -9,6 +9,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cusps import SAME_CUSP
+from viaspline.kernels.tracking.control_law import PAST_CORNER_M
 from viaspline.kernels.tracking.reference_path import ReferencePath
 from viaspline.machine.turns_on_spot import cusps_of
 
@@ -65,6 +66,22 @@ def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
         heading[0] + np.concatenate(([0.0], np.cumsum(turns))),
         np.clip(curvature, -CUSP_CURVATURE_PER_M, CUSP_CURVATURE_PER_M),
     )
+
+
+def heading_after(reference: ReferencePath, distance: float) -> float:
+    """The heading to which a controller turns a robot that stands [rad]; behind a corner there.
+
+    Args:
+        reference: What is followed.
+        distance: Where the robot stands along it [m].
+
+    Example:
+        >>> right, up = [[0, 0], [1, 0], [2, 0], [3, 0]], [[3, 0], [3, 1], [3, 2], [3, 3]]
+        >>> reference = reference_path_of(PiecewiseCubic([right, up]))
+        >>> [round(heading_after(reference, at), 3) for at in (2.9, 3.0)]
+        [0.0, 1.571]
+    """
+    return float(np.interp(distance + PAST_CORNER_M, reference.distance, reference.heading))
 
 
 def _with_cusps(path: PiecewiseCubic, u: Floats, inside: Floats) -> tuple[Floats, Floats]:

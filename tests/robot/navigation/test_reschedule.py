@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from viaspline.kernels.tracking.drive_motion import HEADING, STATE
+from viaspline.machine.reference import heading_after
 from viaspline.mission.model import Mission
-from viaspline.robot.navigation.reschedule import braking_at_once
+from viaspline.robot.navigation.reschedule import braking_at_once, trajectory_within_sight
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.perception.range_sensor import RangeSensor
@@ -105,6 +107,32 @@ def test_a_robot_that_stands_turns_before_it_leaves_though_its_law_is_found_anew
         _, nav = nav.step(state, sensor.scan((0.0, 0.0), turned, tick), STEP * tick)
         angle = abs(math.remainder(math.radians(150) - turned, math.tau))
         assert float(nav.trajectory.time_at(1e-3)) > STEP * tick + angle / 1.0
+
+
+@pytest.mark.parametrize("beside", [1e-5, 1e-4, 1e-3, 1e-2])
+def test_a_robot_leaves_what_is_nearly_a_cusp_when_it_looks_as_its_controller_wants(
+    beside: float,
+) -> None:
+    """Law and controller took its heading from different points there, and it stood for ever."""
+    robot = {"radius_m": 0.2, "drive": {"differential": {"track_m": 0.4}}}
+    route = {"start": [0, 0], "via": [[5, 0]], "goal": [2, beside]}
+    spline = {"tangents": "cardinal"}
+    nav = Navigator(Mission.model_validate({"robot": robot, "route": route, "spline": spline}))
+    state, path = nav._state, nav.path
+    controller = state.progress.controller
+    assert controller is not None
+    places = path.distance(np.linspace(0.0, path.domain[1], 4001))
+    headings = np.unwrap(np.asarray(path.heading(path.parameter(places))))
+    turn = float(places[int(np.argmax(np.abs(np.diff(headings))))])
+    for distance in turn + np.array([-1e-4, -1e-6, 0.0, 1e-6, 2e-6, 1e-5, 1e-4]):
+        believed = np.zeros(STATE)
+        believed[HEADING] = heading_after(controller.reference, distance)
+        stands = replace(controller, believed=believed)
+        progress = replace(state.progress, distance=float(distance), controller=stands)
+        law = trajectory_within_sight(
+            nav._task, progress, state.knowledge, state.schedule, 0.0, path=path, turns=()
+        )
+        assert not [stop for stop in law.stations if abs(stop.distance - distance) < 1e-5]
 
 
 def test_one_that_brakes_at_once_is_where_its_old_law_has_it_as_long_as_it_is_committed(

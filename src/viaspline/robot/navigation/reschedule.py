@@ -15,6 +15,7 @@ from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.kernels.tracking.control_law import HEADING_DEADBAND_RAD
 from viaspline.kernels.tracking.drive_motion import HEADING
+from viaspline.machine.reference import heading_after
 from viaspline.machine.turns_on_spot import (
     TURN,
     SpotTurning,
@@ -224,7 +225,9 @@ def _turn_before_leaving(
         return turn_to(facing, path, distance, turning, is_new=path is not schedule.path)
     if controller is None or controller.believed is None or not turns_where_it_stands(model):
         return None
-    way = heading_onward(path, distance)
+    # by its own points, on which it turns: within a cusp that is nearly one the path's are others
+    on_it = path is controller.path
+    way = heading_after(controller.reference, distance) if on_it else heading_onward(path, distance)
     angle = math.remainder(way - float(controller.believed[HEADING]), math.tau)
     if abs(angle) <= _leaving_angle(task):
         return None
