@@ -18,6 +18,7 @@ from viaspline.curve.path import Path
 from viaspline.errors import NoPathError, PlanningError
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.checking.hairpin import has_hairpin
 from viaspline.planning.departure import (
     BlockedTurnError,
     Leave,
@@ -99,14 +100,40 @@ def _led_round(way: WayAhead, blocked: NDArray[np.intp]) -> Solution:
     users = way.users
     narrow = stretch_round(way.path.vias, users, way.u, blocked)
     wide = stretch_round(users, users, way.u, blocked)
+    found = None
     try:
-        return best_taken_up(way, narrow, blocked, way.joined(narrow, rolling))
+        found = best_taken_up(way, narrow, blocked, way.joined(narrow, rolling))
     except SpentBudgetError:
         raise
     except PlanningError:
         if wide == narrow:
             raise
-    return best_taken_up(way, wide, blocked, way.joined(wide, rolling))
+    if found is None:
+        return best_taken_up(way, wide, blocked, way.joined(wide, rolling))
+    return _without_hairpin(way, wide, blocked, found)
+
+
+def _without_hairpin(
+    way: WayAhead, wide: Stretch, blocked: NDArray[np.intp], found: Solution
+) -> Solution:
+    """A path round something, but from where it may turn back on itself another, if there is one.
+
+    A detour via point of the old path may lie where the new one can only turn back to it.
+    """
+    if not _has_hairpin(way, found):
+        return found
+    try:
+        other = best_taken_up(way, wide, blocked, way.joined(wide, rolling))
+    except PlanningError:
+        return found
+    return found if _has_hairpin(way, other) else other
+
+
+def _has_hairpin(way: WayAhead, solution: Solution) -> bool:
+    """Whether what is new of a path turns back on itself within next to nothing."""
+    path, rejoins = solution.path, solution.rejoins_at
+    end = path.domain[1] if rejoins is None else float(path.parameter(rejoins))
+    return has_hairpin(path, way.u, end)
 
 
 def planned(

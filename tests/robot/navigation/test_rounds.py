@@ -294,8 +294,7 @@ CART = {
 }
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("drive", [{}, CART])
+@pytest.mark.parametrize("drive", [pytest.param({}, marks=pytest.mark.slow), CART])
 def test_with_a_lidar_the_path_ahead_is_a_round_too(drive: dict[str, Any]) -> None:
     robot = {"radius_m": 0.3, "clearance_m": 0.15, "max_speed_mps": 1.5, "sensor": LIDAR, **drive}
     unseen = [disc(3.5, -0.1, 0.25, "post"), disc(8.5, 2.5, 0.5, "beside")]
@@ -316,7 +315,8 @@ def test_with_a_lidar_the_path_ahead_is_a_round_too(drive: dict[str, Any]) -> No
     assert max(lengths) < 3 * lengths[0]  # a lap and its detours
     found = [event for event in run.events if event.kind == "replanned"]
     assert 0 < len(found) < 12  # a detour that was found on one lap is there on the next
-    assert not [event.kind for event in run.events if event.kind in ("deviation", "pose_jump")]
+    never = ("deviation", "pose_jump", "slip")  # where a path turns back on itself, it looks so
+    assert not [event.kind for event in run.events if event.kind in never]
     passed = [via.index for via in run.path.vias if via.kind == "user"]
     assert passed == list(range(17))
     if run.tracking is not None:
