@@ -162,6 +162,21 @@ class SpotTurning(NamedTuple):
         return abs(angle) / self.rate + self.settling
 
 
+def turns_on(path: PiecewiseCubic, turning: SpotTurning) -> tuple[float, ...]:
+    """Distances along a path at which a robot turns on the spot [m], in order.
+
+    Args:
+        path: What is driven.
+        turning: How the robot turns on the spot.
+
+    Example:
+        >>> right, up = [[0, 0], [1, 0], [2, 0], [3, 0]], [[3, 0], [3, 1], [3, 2], [3, 3]]
+        >>> [round(at, 6) for at in turns_on(PiecewiseCubic([right, up]), SpotTurning(rate=1.0))]
+        [3.0]
+    """
+    return () if turning == SpotTurning() else tuple(corners(path)[0].tolist())
+
+
 def with_turns(
     path: PiecewiseCubic, turning: SpotTurning, stations: Sequence[Station], start: float = 0.0
 ) -> list[Station]:

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.path import Path
+from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.state import RobotState
@@ -93,6 +94,19 @@ def test_a_robot_with_two_thirds_of_its_speed_does_not_slip_where_it_has_turned_
         assert "slip" not in [event.kind for event in motion.events]
         told = float(law.state_at(time)[1]) / share
         before = motion.watch.having_given(time, told, 3.0)
+
+
+@pytest.mark.parametrize("goal", [[2.0, 0.0], [2.5, 1.0], [4.6, -0.02]])
+def test_a_cart_that_turns_where_its_plan_turns_back_is_not_complained_of(
+    cart_of: Any, loop: Any, goal: list[float]
+) -> None:
+    robot = {"radius_m": 0.3, "drive": DRIVE}
+    route = {"start": [0, 0], "via": [{"at": [5, 0], "dwell_s": 1.0}], "goal": goal}
+    spline = {"tangents": "cardinal"} if goal[1] == 0.0 else {}
+    mission = Mission.model_validate({"robot": robot, "route": route, "spline": spline})
+    done = loop(Navigator(mission), cart_of(**GOOD), limit=60.0)
+    assert done.nav.reached
+    assert not {"slip", "lag", "pose_jump", "deviation"} & set(done.kinds)
 
 
 def moved_by(dx: float, dy: float, since: float) -> Any:

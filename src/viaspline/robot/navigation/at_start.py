@@ -9,7 +9,7 @@ import math
 from dataclasses import replace
 
 from viaspline.machine.pose_filter import PoseFilter
-from viaspline.machine.turns_on_spot import heading_onward
+from viaspline.machine.turns_on_spot import heading_onward, turns_on
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import MovingThings
 from viaspline.planner import Plan
@@ -47,8 +47,8 @@ def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     if task.model is not None:
         pose_filter = PoseFilter.of(robot, period)
         controller = Controller.of(task.model, period, path, plan.trajectory, pose_filter)
-    turns = task.model is None and math.isfinite(task.spot_turning.rate)
-    facing = heading_onward(path, 0.0) if turns else None
+    looks_ahead = task.model is None and math.isfinite(task.spot_turning.rate)
+    facing = heading_onward(path, 0.0) if looks_ahead else None
     progress = Progress(time=0.0, controller=controller, facing=facing)
     moving = MovingObstacles.known(task.mission)
     hits = None
@@ -59,7 +59,8 @@ def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     knowledge = Knowledge(
         world, frozenset(world.obstacles), belief, moving=moving, charted=len(moving), hits=hits
     )
-    schedule = Schedule(path, plan.trajectory, laid_in=world, laps=laps)
+    turns = turns_on(path, task.spot_turning)
+    schedule = Schedule(path, plan.trajectory, laid_in=world, turns=turns, laps=laps)
     changes = (
         not is_in_parts(task.limits, path)
         or belief is not None

@@ -74,7 +74,7 @@ class Schedule:
         trajectory: The time law along it, from the last change on.
         laid_in: What was known when the path was laid.
         laid_at: When it was laid under way [s]; -inf before the first re-plan.
-        turns: Distances along the path where it has a corner to turn on the spot [m].
+        turns: Distances along the path where the robot turns on the spot, at corners and cusps [m].
         slow: Stretches of the path on which the robot has to be slower, so that it gets no farther
             beside the path than is kept.
         reduced: Where the path keeps less clearance than it should, if it does.

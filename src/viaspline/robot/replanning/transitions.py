@@ -13,7 +13,9 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
+from viaspline.machine.turns_on_spot import turns_on
 from viaspline.robot.navigation.decision import Decision
+from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.navigation.reschedule import braking_at_once, rescheduled
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.replanning.deadline import (
@@ -48,7 +50,7 @@ def take_over(
             laid_in=context.knowledge.world,
             laid_at=progress.time,
             timed_at=progress.time,
-            turns=candidate.turns,
+            turns=_turns(context, candidate),
             slow=candidate.slow,
             reduced=candidate.reduced,
             gives_way=old.gives_way or candidate.waits,
@@ -124,6 +126,14 @@ def _events(
     message = f"{why} on a {candidate.mode.replace('_', ' ')} path"
     events.append(Event("replanned", time, here, message, {"mode": candidate.mode}))
     return tuple(events)
+
+
+def _turns(context: ReplanContext, candidate: PathCandidate) -> tuple[float, ...]:
+    """Where the robot turns on a new path: where it stops for that, and at corners [m]."""
+    stops = candidate.turns
+    corners = turns_on(candidate.solution.path, context.task.spot_turning)
+    others = (at for at in corners if all(abs(at - stop) > SAME_PLACE_M for stop in stops))
+    return tuple(sorted((*stops, *others)))
 
 
 def _record(context: ReplanContext, candidate: PathCandidate) -> Replan:
