@@ -8,7 +8,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
+import shapely.affinity
 
+from viaspline.curve.path import Path
 from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -114,12 +116,53 @@ def test_one_that_leads_nowhere_says_why_and_the_next_one_is_tried_next() -> Non
     assert back_from(context, attempt=1).candidate is not None
 
 
-@pytest.mark.parametrize(
-    "keys",
-    [
-        {"turn_radius": 1.0, "turns_on_spot": "never"},
-        {"footprint": ((0.4, 0.3), (-0.4, 0.3), (-0.4, -0.3), (0.4, -0.3))},
-    ],
-)
-def test_a_robot_that_cannot_turn_round_where_it_stands_does_not_go_back(keys: dict) -> None:
+BODY = ((0.45, 0.3), (-0.35, 0.3), (-0.35, -0.3), (0.45, -0.3))
+
+
+def outlines(path: Path, along: np.ndarray) -> list[shapely.Polygon]:
+    """The body's outline at places of a path, by shapely."""
+    found = []
+    for u in np.asarray(path.parameter(along)).tolist():
+        x, y = np.asarray(path.evaluate(u)).tolist()
+        turned = shapely.affinity.rotate(
+            shapely.Polygon(BODY), float(path.heading(u)), origin=(0, 0), use_radians=True
+        )
+        found.append(shapely.affinity.translate(turned, x, y))
+    return found
+
+
+def test_a_body_with_corners_turns_where_it_stands_and_goes_back_as_well() -> None:
+    wall = pocket(0.49)
+    candidate = back_from(context_in(wall), footprint=BODY).candidate
+    assert candidate is not None
+    assert candidate.reduced is not None
+    path, until, floor = candidate.solution.path, candidate.reduced.until, candidate.reduced.floor
+    shape = shapely.LineString(wall)
+    back = [
+        float(shape.distance(body)) - THICK
+        for body in outlines(path, np.linspace(HERE + 1e-6, until, 700))
+    ]
+    assert min(back) >= floor - TASK.requirements.radius > 0.15
+    on = [
+        float(shape.distance(body)) - THICK
+        for body in outlines(path, np.linspace(until + 1e-6, path.length, 2000))
+    ]
+    assert min(on) >= TASK.requirements.clearance - 1e-6
+
+
+def test_a_body_that_is_too_long_to_turn_where_it_stands_does_not_go_back() -> None:
+    """Its mouth would let it pass, and so would all of its way there."""
+    long = ((0.3, 0.25), (-1.1, 0.25), (-1.1, -0.25), (0.3, -0.25))
+    context = context_in(pocket(0.49))
+    assert back_from(context, footprint=long).candidate is not None
+    posts = [(HERE, 1.4), (HERE, 1.2)], [(HERE, -1.4), (HERE, -1.2)]
+    for post in posts:
+        context = context_in(pocket(0.49), post)
+        assert back_from(context, footprint=BODY).candidate is not None
+    both = [*posts[0], (9.0, 1.2), (9.0, -1.2), *reversed(posts[1])]
+    assert back_from(context_in(pocket(0.49), both), footprint=long) == ReplanResult(None)
+
+
+def test_a_robot_that_cannot_turn_round_where_it_stands_does_not_go_back() -> None:
+    keys = {"turn_radius": 1.0, "turns_on_spot": "never"}
     assert back_from(context_in(pocket(0.49)), **keys) == ReplanResult(None)

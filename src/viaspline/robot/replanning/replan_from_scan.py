@@ -33,6 +33,7 @@ from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.robot.replanning.retreat import retreat
 from viaspline.robot.replanning.sight_limit import within_sight
+from viaspline.robot.replanning.standing_search import OUTDATED, as_first_seen, holds_now
 from viaspline.robot.replanning.transitions import braked, keep_searching, stop_for_good, take_over
 from viaspline.world.world import World
 
@@ -41,6 +42,10 @@ MIN_REPLAN_INTERVAL_S = 0.25
 
 MAX_STAND_S = 5.0
 """A robot gives up if it has stood so long without a way [s]."""
+
+LONG_WORK_S = 4.0
+"""A robot that stands and looks for a way on tries the way back whenever it has spent so much more
+[s of the reference machine]."""
 
 TOO_NARROW = "sees no way on that is wide enough"
 """Why a robot that has come too close does not go on."""
@@ -100,18 +105,20 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
         obstruction=Obstruction(world, names, free),
         floor=context.requirements.required,
     )
-    blocked = with_time_to_search(blocked)
+    as_seen = with_time_to_search(as_first_seen(blocked))
     try:
-        result = _way_round(blocked)
+        result = _way_round(as_seen)
     except SpentBudgetError as error:
         result = ReplanResult(None, error, begin_with=FIRST_STAGE)
+    if result.candidate is not None and not holds_now(blocked, result.candidate):
+        result, as_seen = OUTDATED, with_time_to_search(blocked)
     if result.begin_with is not None:
-        kept = keep_searching(blocked, result)
+        kept = keep_searching(as_seen, result)
         decision = stop_for_good(blocked, SPENT_AT_REST) if kept is None else kept
-        return replace(decision, searched=True, work=blocked.work)
+        return replace(decision, searched=True, work=as_seen.work)
     if result.candidate is None:
         decision = _hold(context, _plain(result.refusal))
-        return replace(decision, searched=True, work=blocked.work)
+        return replace(decision, searched=True, work=as_seen.work)
     decision = take_over(blocked, result.candidate, result.skip)
     detected = tuple(context.detection(world, index) for index in indices)
     return replace(
@@ -119,7 +126,7 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
         schedule=replace(decision.schedule, wait=None),
         events=detected + decision.events,
         searched=True,
-        work=blocked.work,
+        work=as_seen.work,
     )
 
 
@@ -156,28 +163,52 @@ def _way_round(context: ReplanContext) -> ReplanResult:
     """A way on that keeps something to spare; if there is none, one that keeps what it must.
 
     A robot that has come too close already gets out of there first. One that stands in a pocket
-    goes back as it came.
+    goes back as it came: where it knows no way on, and now and then while it looks for one.
     """
     requirements, belief = context.task.requirements, context.knowledge.belief
     assert belief is not None
-    spared = with_spare(requirements)
+    looked_long = _looked_long(context)
+    if looked_long:
+        try:
+            back = _way_back(context, looked_long - 1)
+        except SpentBudgetError:
+            back = ReplanResult(None)
+        if back.candidate is not None:
+            return back
     room = _room(context, belief.cell_size)
     if room >= requirements.required:
-        found = _way_on(context, spared)
+        found = _way_on(context, with_spare(requirements))
     else:
-        found = _way_out(context, room, spared)
+        found = _way_out(context, room, with_spare(requirements))
     is_over = found.candidate is not None or found.begin_with is not None
     if is_over or context.speed > 0.0:
         return found
-    errors = belief.surfaces.tolerance + requirements.tracking_error
-    least = requirements.radius - belief.cell_size - errors
     wait = context.schedule.wait
     attempt = 0 if wait is None else round((context.progress.time - wait.since) / RETRY_INTERVAL_S)
+    back = _way_back(context, attempt)
+    return back if back.candidate is not None or back.refusal else found
+
+
+def _way_back(context: ReplanContext, attempt: int) -> ReplanResult:
+    """Back as it came for a robot that stands, if it can, with something to spare from there on."""
+    requirements, belief = context.task.requirements, context.knowledge.belief
+    assert belief is not None
+    errors = belief.surfaces.tolerance + requirements.tracking_error
+    least = requirements.radius - belief.cell_size - errors
     back = retreat(context, requirements, least, attempt)
     if back.candidate is None:
-        return back if back.refusal else found
-    roomier = retreat(context, spared, least, attempt)
+        return back
+    roomier = retreat(context, with_spare(requirements), least, attempt)
     return back if roomier.candidate is None else roomier
+
+
+def _looked_long(context: ReplanContext) -> int:
+    """How often a robot that stands has looked long by now; 0 if it had in an earlier step."""
+    pending = context.schedule.pending
+    if pending is None or context.speed > 0.0:
+        return 0
+    spent, step = pending.so_far.spent, pending.so_far.limit
+    return int(spent / LONG_WORK_S) if spent % LONG_WORK_S < step else 0
 
 
 def _way_on(context: ReplanContext, spared: Requirements) -> ReplanResult:

@@ -8,13 +8,17 @@ back as it came, through what it takes for too narrow, to where a way leads on.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
+from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
+from viaspline.machine.turns_on_spot import corners
 from viaspline.planning import replan
+from viaspline.planning.checking.conflicts import CLEAR, turn_conflict
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
@@ -28,6 +32,12 @@ SPACING_RATIO = 0.1
 
 TRACK_SLACK_M = 1e-3
 """By which the way back may keep less than its samples show [m]."""
+
+BODY_SPACING_M = 0.01
+"""From sample to sample of a polygon, of which a corner may pass something closely [m]."""
+
+BEFORE_JOINT = 1e-9
+"""A heading with which a corner is reached is looked up so far before it, in the parameter."""
 
 
 def retreat(
@@ -46,13 +56,22 @@ def retreat(
         The path, with what it keeps where; if there is none, why the place leads nowhere. Without
         a reason if there is no such place, or if the robot can't turn round where it stands.
     """
-    ways = _ways_back(context, requirements.required, least)
-    if not requirements.turns_at_rest or requirements.footprint is not None or not ways:
+    if not requirements.turns_at_rest:
+        return ReplanResult(None)
+    if requirements.footprint is not None:
+        least = max(least, requirements.radius + 2.0 * TRACK_SLACK_M)
+    ways = _ways_back(context, requirements, least)
+    if not ways:
         return ReplanResult(None)
     path, stop = context.schedule.path, context.stop
     place, floor = ways[attempt % len(ways)]
-    back = path.section(*np.asarray(path.parameter(np.array([place, stop]))).tolist())
-    route = by_way_of(context, np.ascontiguousarray(back.spans[::-1, ::-1]))
+    section = path.section(*np.asarray(path.parameter(np.array([place, stop]))).tolist())
+    back = PiecewiseCubic(np.ascontiguousarray(section.spans[::-1, ::-1]))
+    if requirements.footprint is not None:
+        floor = _body_floor(context, requirements, place)
+        if floor < least or not _turns_round(context, back, requirements, floor):
+            return ReplanResult(None)
+    route = by_way_of(context, back.spans)
     at = 2.0 * stop - place
     try:
         found = replan.from_rest(route, at, context.knowledge.world, requirements)
@@ -67,20 +86,66 @@ def retreat(
 
 
 def _ways_back(
-    context: ReplanContext, required: float, least: float
+    context: ReplanContext, requirements: Requirements, least: float
 ) -> tuple[tuple[float, float], ...]:
     """Where to go back to, the nearest first: the place, and the distance kept on the way [m].
 
     Of all the places between two gaps one is enough: where none leads on from it, none does from
-    the others.
+    the others. At a place a polygon has room to turn.
     """
-    path, stop = context.schedule.path, context.stop
+    stop, required = context.stop, requirements.required
     count = 2 + int(stop / max(SPACING_RATIO * required, SAME_PLACE_M))
     places = np.linspace(stop, 0.0, count)
-    room: Floats = context.knowledge.world.distance(path.at_distance(places))
+    room = _room_back(context, requirements, places)
     floors = np.minimum.accumulate(room) - TRACK_SLACK_M
     roomy = room >= required
+    if requirements.footprint is not None:
+        middles = np.asarray(context.schedule.path.at_distance(places))
+        roomy = context.knowledge.world.distance(middles) >= requirements.around
     beyond = 1 + np.flatnonzero(roomy[1:] & ~roomy[:-1])
     return tuple(
         (float(places[k]), float(floors[k])) for k in beyond.tolist() if floors[k] >= least
+    )
+
+
+def _room_back(context: ReplanContext, requirements: Requirements, places: Floats) -> Floats:
+    """The room at places of the path for a body that looks back along it [m], shape (n,).
+
+    That of a polygon is no less than its largest disc's radius; see ``room_along``.
+    """
+    path, world = context.schedule.path, context.knowledge.world
+    if requirements.footprint is None:
+        room: Floats = world.distance(path.at_distance(places))
+        return room
+    u = np.asarray(path.parameter(places))
+    at, headings = np.asarray(path.evaluate(u))[:, :2], np.asarray(path.heading(u)) + np.pi
+    return requirements.radius + world.body_distance(at, headings, requirements.footprint)
+
+
+def _body_floor(context: ReplanContext, requirements: Requirements, place: float) -> float:
+    """The distance that a polygon keeps on its way back to a place [m]."""
+    stop = context.stop
+    places = np.linspace(place, stop, 2 + math.ceil((stop - place) / BODY_SPACING_M))
+    return float(_room_back(context, requirements, places).min()) - TRACK_SLACK_M
+
+
+def _turns_round(
+    context: ReplanContext, back: PiecewiseCubic, requirements: Requirements, floor: float
+) -> bool:
+    """Whether a polygon can turn where it stands, and wherever it has turned on its way.
+
+    Args:
+        context: The robot; it stands.
+        back: Its way back.
+        requirements: The body.
+        floor: What it keeps there [m].
+    """
+    kept = floor - requirements.radius - requirements.tracking_error
+    body, path = replace(requirements, clearance=kept), context.schedule.path
+    joints = np.rint(np.asarray(back.parameter(corners(back)[0]))).astype(int).tolist()
+    before = [float(back.heading(joint - BEFORE_JOINT)) for joint in joints]
+    arrivals = [float(path.heading(float(path.parameter(context.stop)))), *before]
+    return all(
+        turn_conflict(context.knowledge.world, arrival, back.spans[joint], body) == CLEAR
+        for arrival, joint in zip(arrivals, (0, *joints), strict=True)
     )

@@ -1,0 +1,52 @@
+"""A robot that stands looks for a way on through what it saw when it began to look.
+
+With noise a lidar shows the same walls a little elsewhere in every scan. A search that began anew
+with each of them would never come farther than it does in a step. So it goes on in the world in
+which it began, and what it has found is looked at in the world as it is by then.
+
+Tested through ``robot/replanning/test_replan_from_scan``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+from viaspline.robot.navigation.pending_search import FIRST_STAGE
+from viaspline.robot.replanning.path_candidate import PathCandidate
+from viaspline.robot.replanning.replan_context import ReplanContext
+from viaspline.robot.replanning.replan_search import ReplanResult
+
+OUTDATED: Final = ReplanResult(None, "what was found isn't clear any more", begin_with=FIRST_STAGE)
+"""What comes of a search whose path isn't clear any more: it begins anew."""
+
+
+def as_first_seen(context: ReplanContext) -> ReplanContext:
+    """A robot that stands and looks on, with what it knew when it began; any other as it is.
+
+    Args:
+        context: The robot, with what is in its way.
+    """
+    pending = context.schedule.pending
+    if pending is None or context.speed > 0.0:
+        return context
+    world = pending.so_far.world
+    knowledge = replace(context.knowledge, world=world)
+    return replace(
+        context, knowledge=knowledge, obstruction=replace(context.obstruction, world=world)
+    )
+
+
+def holds_now(context: ReplanContext, candidate: PathCandidate) -> bool:
+    """Whether a path that was found through what was seen keeps clear of what is known now.
+
+    Args:
+        context: The robot, with what it knows now.
+        candidate: The path.
+    """
+    pending, world = context.schedule.pending, context.knowledge.world
+    if pending is None or context.speed > 0.0 or pending.so_far.world is world:
+        return True
+    schedule = replace(context.schedule, path=candidate.solution.path, reduced=candidate.reduced)
+    now = ReplanContext.of(context.task, context.progress, context.knowledge, schedule)
+    return now.free_until(world) is None
