@@ -41,9 +41,8 @@ def outcome(world: World, limit: float) -> Outcome:
             return "spent", limit, len(pushes)
     if isinstance(found, TurnPath):
         return found.spans.tobytes(), budget.spent, len(pushes)
-    spent = budget.spent
-    budget.limit = np.inf
-    return [(leg, place.tolist()) for leg, place in found.places], spent, len(pushes)
+    places = found.places(asked.unbudgeted)
+    return [(leg, place.tolist()) for leg, place in places], budget.spent, len(pushes)
 
 
 def test_a_path_that_is_pushed_in_place_ends_where_all_rounds_would_and_costs_as_much(
@@ -60,3 +59,17 @@ def test_a_path_that_is_pushed_in_place_ends_where_all_rounds_would_and_costs_as
     assert min(saved) == 0
     assert max(saved) > MAX_PUSH_ROUNDS // 2
     assert any(isinstance(kind, str) for kind, *_ in found)
+
+
+def test_where_a_path_got_stuck_is_found_with_what_a_later_step_may_spend() -> None:
+    """It was asked of the step's budget in which it got stuck: none of the later ones came on."""
+    rows = [bend(0.0, 0.0), bend(5.0, 0.3, 0.5, 1.0), bend(10.0, 0.0)]
+    bends = Bends.free(np.array(rows), np.array([0, -1, 1])).turning(0.8)
+    wall = World([Obstacle(polygon=[[7, -6], [8, -6], [8, 6], [7, 6]])])
+    asked = Requirements(radius=0.4, clearance=0.05, turn_radius=0.8)
+    first, later = WorkBudget(1.0), WorkBudget(1.0)
+    stuck = repair.clear_turn_path_or_why(bends, wall, asked.within(first))
+    assert isinstance(stuck, repair.Stuck)
+    first.limit = first.spent
+    assert stuck.places(asked.within(later))
+    assert later.spent > 0.0

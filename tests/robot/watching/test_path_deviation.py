@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
+from viaspline.curve.path import Path
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.state import RobotState
 from viaspline.robot.watching.true_place import true_place
+from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.retime import retime
 
 BODY = {"radius_m": None, "footprint": [[0.5, 0.3], [-0.5, 0.3], [-0.5, -0.3], [0.5, -0.3]]}
 
@@ -38,6 +45,33 @@ def test_a_body_that_looks_another_way_is_off_by_its_corners(slalom_of: Any) -> 
     should = float(nav.trajectory.distance_at(5.0))
     place = true_place(robot, schedule_of(nav), turned, should, should)
     assert place.off == pytest.approx(2.0 * 0.5831 * 0.0998, abs=2e-3)
+
+
+@given(st.floats(0.02, 1.0), st.floats(0.02, 0.4), st.floats(0.5, 3.14), st.floats(0.02, 0.1))
+@example(1.0, 0.1, 3.14, 0.05)
+@settings(deadline=None, max_examples=25)
+def test_a_body_that_follows_late_is_off_by_no_more_where_it_turns(
+    slalom_of: Any, accel: float, late: float, angle: float, period: float
+) -> None:
+    """It was taken for being far beside its path: on what it came by, and looking back."""
+    robot = slalom_of().robot.model_copy(update={"footprint": BODY["footprint"]})
+    there = [(float(k), 0.0) for k in range(4)]
+    onward = [(3.0 + k * math.cos(angle), k * math.sin(angle)) for k in range(4)]
+    path = Path([there, onward], [])
+    stand = 1.0 + late  # it has turned when its law goes on
+    law = retime(path, Limits(max_speed=1.0, max_accel=accel), [Station(3.0, stand)])
+    nav = Navigator(slalom_of())
+    schedule = Schedule(path, law, laid_in=nav.world, turns=(3.0,))
+    last = 0.0
+    for time in np.arange(0.0, law.end_time, period).tolist():
+        at, speed, _ = (float(x) for x in law.state_at(max(time - late, 0.0)))
+        x, y = np.asarray(path.at_distance(at)).tolist()
+        heading = float(path.heading(float(path.parameter(at))))
+        measured = RobotState((x, y + 1e-4), heading, speed)
+        should = float(law.distance_at(time))
+        place = true_place(robot, schedule, measured, should, last)
+        last = place.distance
+        assert place.off < 0.05, (time, at, should)  # at a crawl it may be taken to turn yet
 
 
 @pytest.mark.slow

@@ -43,9 +43,12 @@ class NextHomotopyClasses:
         def attempt(row: TautRow, bound: float) -> Attempt[TurnPath]:
             bends = bends_along(path.sequence, row.taut_paths).turning(problem.rho)
             made = clear_turn_path_or_why(bends, path.world, path.requirements)
-            places = path.passed_wrong(made) if isinstance(made, TurnPath) else made.places
-            if isinstance(made, TurnPath) and not places:
-                return Attempt(made)
+            if isinstance(made, TurnPath):
+                places = path.passed_wrong(made)
+                if not places:
+                    return Attempt(made)
+            else:
+                places = made.places(path.requirements)
             others = (row.past_gap(path.legs[leg], by) for leg, by in places)
             return Attempt(None, (other for other in others if other is not None))
 

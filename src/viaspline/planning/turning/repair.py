@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,15 +42,12 @@ class Stuck:
     """A turn path that could not be pushed clear.
 
     Attributes:
-        find: Finds the places where it got stuck.
+        places: Finds the places where it got stuck, with what may be spent on that: of each the
+            leg, and what its taut path goes by there [m], (2,). A later step of a search has a
+            budget of its own.
     """
 
-    find: Callable[[], tuple[tuple[int, Floats], ...]]
-
-    @cached_property
-    def places(self) -> tuple[tuple[int, Floats], ...]:
-        """Of each place the leg, and what its taut path goes by there [m], (2,)."""
-        return self.find()
+    places: Callable[[Requirements], tuple[tuple[int, Floats], ...]]
 
 
 def clear_turn_path(
@@ -149,13 +146,13 @@ def _pushed_clear(
                 requirements.spend(cost)
             break
         if isinstance(pushed, NoTurnPath) or ramp < LEAST_RAMP:
-            return Stuck(partial(_first_too_close, turn_path, close, world, requirements))
+            return Stuck(partial(_first_too_close, turn_path, close, world))
         turn_path = pushed
     assert isinstance(turn_path, TurnPath)
     close = body_conflicts(world, turn_path.spans, requirements)
     if (close == CLEAR).all():
         return turn_path
-    return Stuck(partial(_first_too_close, turn_path, close, world, requirements))
+    return Stuck(partial(_first_too_close, turn_path, close, world))
 
 
 def _are_one(first: TurnPath, second: TurnPath) -> bool:
@@ -172,7 +169,7 @@ def _laid(bends: Bends, ramp: float, requirements: Requirements) -> TurnPath | N
     return found
 
 
-def _between(failed: NoTurnPath) -> tuple[tuple[int, Floats], ...]:
+def _between(failed: NoTurnPath, _: Requirements) -> tuple[tuple[int, Floats], ...]:
     """Where two bends leave no room for their turns."""
     line = int(failed.lines[0])
     rows = (line, (line + 1) % len(failed.bends.rows))

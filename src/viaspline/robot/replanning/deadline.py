@@ -113,8 +113,7 @@ def gone_on(
             brakes=must_brake(context),
         )  # fmt: skip
     spent = budget.spent + (0.0 if before is None else before.so_far.spent)
-    is_further = budget.has_gained and (before is None or before.so_far.world is world)
-    limit = max(budget.limit if is_further else 2.0 * budget.limit, STANDING_WORK_S)
+    limit = max(budget.limit if budget.has_gained else 2.0 * budget.limit, STANDING_WORK_S)
     if limit > MAX_PART_WORK_S or spent + limit > MAX_STANDING_WORK_S:
         return None
     so_far = SearchSoFar(limit, spent, world, budget.finished)

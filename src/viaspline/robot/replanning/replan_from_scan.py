@@ -33,7 +33,12 @@ from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.robot.replanning.retreat import retreat
 from viaspline.robot.replanning.sight_limit import within_sight
-from viaspline.robot.replanning.standing_search import OUTDATED, as_first_seen, holds_now
+from viaspline.robot.replanning.standing_search import (
+    OUTDATED,
+    as_first_seen,
+    begun_anew,
+    holds_now,
+)
 from viaspline.robot.replanning.transitions import braked, keep_searching, stop_for_good, take_over
 from viaspline.world.world import World
 
@@ -111,7 +116,7 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
     except SpentBudgetError as error:
         result = ReplanResult(None, error, begin_with=FIRST_STAGE)
     if result.candidate is not None and not holds_now(blocked, result.candidate):
-        result, as_seen = OUTDATED, with_time_to_search(blocked)
+        result, as_seen = OUTDATED, begun_anew(as_seen, blocked)
     if result.begin_with is not None:
         kept = keep_searching(as_seen, result)
         decision = stop_for_good(blocked, SPENT_AT_REST) if kept is None else kept

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Final
 
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.robot.navigation.pending_search import FIRST_STAGE
 from viaspline.robot.replanning.path_candidate import PathCandidate
 from viaspline.robot.replanning.replan_context import ReplanContext
@@ -50,3 +51,21 @@ def holds_now(context: ReplanContext, candidate: PathCandidate) -> bool:
     schedule = replace(context.schedule, path=candidate.solution.path, reduced=candidate.reduced)
     now = ReplanContext.of(context.task, context.progress, context.knowledge, schedule)
     return now.free_until(world) is None
+
+
+def begun_anew(searched: ReplanContext, now: ReplanContext) -> ReplanContext:
+    """The robot after a step in which it found what isn't clear any more.
+
+    Args:
+        searched: With what it went by, and what it has spent.
+        now: With what it knows now.
+    """
+    before = searched.requirements.budget
+    assert before is not None
+    budget = WorkBudget(before.limit, before.spent, has_gained=True)
+    return replace(
+        searched,
+        knowledge=now.knowledge,
+        obstruction=now.obstruction,
+        requirements=searched.requirements.within(budget),
+    )

@@ -24,6 +24,9 @@ PASSED_M = 0.1
 TURNING_MPS = 0.05
 """One that is slower may be turning where it stands [m/s]."""
 
+AT_TURN_M = 1e-3
+"""And one that is nearer to a corner than this is at it [m]."""
+
 
 @dataclass(frozen=True)
 class TruePlace:
@@ -83,16 +86,35 @@ def true_place(
     path = schedule.path
     if is_there(schedule, measured, should):
         return TruePlace(should, 0.0, 0.0)
-    low = max(min(last, should) - AROUND_M - around, 0.0)
-    high = min(max(last, should) + AROUND_M + around, path.length)
-    distance, aside = project(path, measured.position, min(low, high), high)
-    off = aside
-    if robot.footprint is not None and abs(measured.speed) > TURNING_MPS:
-        way = float(path.heading(float(path.parameter(distance))))
-        wanted = way if robot.held_heading is None else robot.held_heading
-        turned = abs(math.remainder(measured.heading - wanted, math.tau))
-        off += 2.0 * robot.outer_radius * math.sin(0.5 * turned)
-    passed = [turn for turn in schedule.turns if turn <= should - PASSED_M]
-    to_come = [turn for turn in schedule.turns if turn > should - PASSED_M]
-    distance = min(max([distance, *passed]), min(to_come, default=math.inf))
-    return TruePlace(distance, aside, off)
+    turns, moves = schedule.turns, abs(measured.speed) > TURNING_MPS
+    passed = [turn for turn in turns if turn <= should - PASSED_M]
+    left = [turn for turn in turns if should - PASSED_M < turn <= should]
+    to_come = [turn for turn in turns if turn > should]
+    low = max([min(last, should) - AROUND_M - around, 0.0, *passed])
+    high = min([max(last, should) + AROUND_M + around, path.length, *to_come])
+    until = min([high, *left])
+    found = [project(path, measured.position, min(low, until), until)]
+    if left and moves and robot.held_heading is None:  # how it looks tells on which way it is
+        found.append(project(path, measured.position, left[-1], max(high, left[-1])))
+    reach = 2.0 * max(robot.outer_radius, AT_TURN_M)
+    offs = []
+    for distance, aside in found:
+        turned = _turned(robot, schedule, measured.heading, distance) if moves else 0.0
+        offs.append((aside + reach * math.sin(0.5 * turned), distance, aside))
+    off, distance, aside = min(offs)
+    return TruePlace(distance, aside, aside if robot.footprint is None else off)
+
+
+def _turned(robot: RobotSpec, schedule: Schedule, heading: float, distance: float) -> float:
+    """By how much a body looks another way than its path leads at a place of it [rad].
+
+    Where it turns on the spot that is the way on or the way that it came, until it stands.
+    """
+    if robot.held_heading is not None:
+        return abs(math.remainder(heading - robot.held_heading, math.tau))
+    path, places = schedule.path, [distance]
+    for turn in schedule.turns:
+        if abs(turn - distance) <= AT_TURN_M:
+            places += [max(turn - AT_TURN_M, 0.0), min(turn + AT_TURN_M, path.length)]
+    ways = np.asarray(path.heading(np.asarray(path.parameter(np.array(places)))))
+    return min(abs(math.remainder(heading - way, math.tau)) for way in ways.tolist())
