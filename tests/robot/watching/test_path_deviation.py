@@ -71,7 +71,7 @@ def test_a_body_that_follows_late_is_off_by_no_more_where_it_turns(
         should = float(law.distance_at(time))
         place = true_place(robot, schedule, measured, should, last)
         last = place.distance
-        assert place.off < 0.05, (time, at, should)  # at a crawl it may be taken to turn yet
+        assert place.off < 0.11, (time, at, should)  # at a crawl it may be taken to turn yet
 
 
 @pytest.mark.slow
