@@ -15,6 +15,8 @@ from viaspline.kernels.jit import inlined, inner
 LOOKS_APART_M = 2.0
 """Between places on a span that are looked at for the nearest one; then it is closed in on."""
 MOST_LOOKS = 64
+APART = 1.0 - 1e-12
+"""Of two squares of distances the one is less than this of the other: so are the distances."""
 EDGE = 1e-6
 """Nearer to its end a span isn't cut."""
 
@@ -38,6 +40,24 @@ def apart_from(span: Floats, w: float, x: float, y: float) -> float:
 
 
 @inlined
+def _square_from(span: Floats, w: float, x: float, y: float) -> float:
+    """The square of the distance of a place from a span at a parameter [m²]."""
+    dx, dy = span_coordinate(span, w, 0) - x, span_coordinate(span, w, 1) - y
+    return dx * dx + dy * dy
+
+
+@inlined
+def _is_no_farther(span: Floats, w: float, other: float, x: float, y: float) -> bool:
+    """Whether a span is no farther from a place at one parameter than at another."""
+    square, other_square = _square_from(span, w, x, y), _square_from(span, other, x, y)
+    if square < APART * other_square:
+        return True
+    if other_square < APART * square:
+        return False
+    return apart_from(span, w, x, y) <= apart_from(span, other, x, y)
+
+
+@inlined
 def _longest_side(span: Floats) -> float:
     """The longest side of a span's polygon [m]: a third of what it may go on by its parameter."""
     longest = 0.0
@@ -57,17 +77,20 @@ def nearest_on_span(span: Floats, x: float, y: float, limit: float) -> tuple[flo
         return math.inf, 0.0
     rough = high_x - low_x + high_y - low_y
     looks = min(max(int(rough / LOOKS_APART_M) + 1, 4), MOST_LOOKS)
-    best, at = math.inf, 0.0
+    best, best_square, at = math.inf, math.inf, 0.0
     for k in range(looks + 1):
+        square = _square_from(span, k / looks, x, y)
+        if APART * square > best_square:
+            continue
         apart = apart_from(span, k / looks, x, y)
         if apart < best:
-            best, at = apart, k / looks
-    if best - 0.5 * _longest_side(span) * 3.0 / looks > limit:
+            best, best_square, at = apart, square, k / looks
+    if best > limit and best - 0.5 * _longest_side(span) * 3.0 / looks > limit:
         return math.inf, 0.0
     low, high = max(at - 1.0 / looks, 0.0), min(at + 1.0 / looks, 1.0)
     for _ in range(24):
         third = (high - low) / 3.0
-        if apart_from(span, low + third, x, y) <= apart_from(span, high - third, x, y):
+        if _is_no_farther(span, low + third, high - third, x, y):
             high = high - third
         else:
             low = low + third

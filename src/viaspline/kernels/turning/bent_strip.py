@@ -105,13 +105,13 @@ def _seam(
 
 
 @uncounted
-def _solve(bands: Floats, more: Floats, fixed: Flags, right: Floats, work: Floats) -> None:
-    """Solve a symmetric system of five diagonals, with more on the main one; in place of right."""
-    count = right.shape[0]
+def _factor(bands: Floats, more: Floats, fixed: Flags, work: Floats) -> None:
+    """Factor a symmetric matrix of five diagonals, with more on the main one, into ``work``."""
+    count = more.shape[0]
     for j in range(count):
         d, e, f = bands[j, 0] + more[j], bands[j, 1], bands[j, 2]
         if fixed[j]:
-            d, e, f, right[j] = 1.0, 0.0, 0.0, 0.0
+            d, e, f = 1.0, 0.0, 0.0
         if j + 1 < count and fixed[j + 1]:
             e = 0.0
         if j + 2 < count and fixed[j + 2]:
@@ -122,7 +122,15 @@ def _solve(bands: Floats, more: Floats, fixed: Flags, right: Floats, work: Float
         if j > 1:
             d -= work[j - 2, 2] ** 2 * work[j - 2, 0]
         work[j, 0], work[j, 1], work[j, 2] = d, e / d, f / d
+
+
+@uncounted
+def _solve(work: Floats, fixed: Flags, right: Floats) -> None:
+    """Solve the system whose matrix is factored in ``work``, in place of right."""
+    count = right.shape[0]
     for j in range(count):
+        if fixed[j]:
+            right[j] = 0.0
         if j > 0:
             right[j] -= work[j - 1, 1] * right[j - 1]
         if j > 1:
@@ -141,13 +149,14 @@ def _solve_round(
     work: Floats,
 ) -> None:  # fmt: skip
     """Solve it with what the seam of a round adds, by the formula of Sherman and Morrison."""
-    _solve(bands, more, fixed, right, work)
+    _factor(bands, more, fixed, work)
+    _solve(work, fixed, right)
     if seam[0] == 0.0 and seam[1] == 0.0:
         return
     last = right.size - 2
     across[:] = 0.0
     across[1], across[last] = seam[0], seam[1]
-    _solve(bands, more, fixed, across, work)
+    _solve(work, fixed, across)
     far = seam[0] * right[1] + seam[1] * right[last]
     far /= 1.0 + seam[0] * across[1] + seam[1] * across[last]
     for j in range(right.size):

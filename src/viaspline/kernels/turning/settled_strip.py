@@ -13,7 +13,7 @@ import numpy as np
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.bent_strip import bent_strip
-from viaspline.kernels.turning.strip_places import sharpest_step, strip_normals, strip_places
+from viaspline.kernels.turning.strip_places import has_kink, strip_normals, strip_places
 from viaspline.kernels.turning.strip_room import strip_room
 from viaspline.kernels.turning.strip_spans import strip_spans
 from viaspline.kernels.turning.swept_sides import StripBody, swept_sides
@@ -24,7 +24,6 @@ LEAST_PLACES, MOST_PLACES = 16, 400  # of a leg, of the path
 TURN_RAD = 0.2  # from place to place, at most
 LEAST_ROOM_M = 1e-5  # between bounds, where there is none
 MOST_TURNED = 0.3  # that a step is turned by at once [rad]
-KINK_RAD = 1.0  # from step to step
 LITTLE_TURNED = 0.03  # the same, for which places need not be laid anew [rad]
 MOST_ROUNDS = 10  # of moving places
 MISSING = 50.0  # of what places may still move where they rest: as many slacks may be missing
@@ -159,7 +158,7 @@ def settled_strip(
     """
     for _ in range(MOST_ROUNDS):
         strip, most = _moved(world, body, ends, fineness, strip, tension)
-        if not sharpest_step(strip.places) < KINK_RAD:
+        if has_kink(strip.places):
             return strip, False
         missing = settled * MISSING * body.slack * body.required
         if most < settled * body.required and strip.rooms.min() > -missing:

@@ -13,6 +13,8 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel, uncounted
 
 SAMPLES = 4  # of a span
+KINK_RAD = 1.0  # from step to step
+LITTLE_SLOPE = 0.5  # across over along the step before: clearly less than a kink
 
 
 @inner
@@ -119,8 +121,8 @@ def strip_normals(places: Floats, closed: bool) -> Floats:
     return normals
 
 
-@kernel
-def sharpest_step(places: Floats) -> float:
+@uncounted
+def _sharpest_step(places: Floats) -> float:
     """By how much a row of places turns from one step to the next at most [rad].
 
     Args:
@@ -134,3 +136,30 @@ def sharpest_step(places: Floats) -> float:
             sharpest = max(sharpest, _turn(heading, here))
         heading = here
     return sharpest
+
+
+@uncounted
+def _turns_little(places: Floats) -> bool:
+    """Whether a row of places clearly has no kink, told without any angle.
+
+    Args:
+        places: [m], (n, 2).
+    """
+    before_x, before_y = places[1, 0] - places[0, 0], places[1, 1] - places[0, 1]
+    for j in range(1, places.shape[0] - 1):
+        dx, dy = places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
+        along, across = before_x * dx + before_y * dy, before_x * dy - before_y * dx
+        if not abs(across) < LITTLE_SLOPE * along:
+            return False
+        before_x, before_y = dx, dy
+    return True
+
+
+@kernel
+def has_kink(places: Floats) -> bool:
+    """Whether a row of places turns by ``KINK_RAD`` or more from one step to the next.
+
+    Args:
+        places: [m], (n, 2).
+    """
+    return not _turns_little(places) and not _sharpest_step(places) < KINK_RAD

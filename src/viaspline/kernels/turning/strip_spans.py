@@ -8,6 +8,7 @@ goes on at its end where it begins.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,38 +20,77 @@ MAX_ROUNDS = 8
 PROBE = 1e-3  # of a step, by which a place is moved to see what that changes
 
 
+class _Spline(NamedTuple):
+    """The equations of a spline's derivatives at places, eliminated from the first on.
+
+    Attributes:
+        per: One over each step [1/m], (n - 1,).
+        diagonal: (n,).
+        above: (n,).
+        rises: Right sides before anything is eliminated, (n, 2).
+    """
+
+    per: Floats
+    diagonal: Floats
+    above: Floats
+    rises: Floats
+
+
+@inner
+def _room(count: int) -> _Spline:
+    """Equations for so many places, to be filled."""
+    return _Spline(np.empty(count - 1), np.empty(count), np.empty(count), np.empty((count, 2)))
+
+
 @uncounted
-def _tangents(places: Floats, steps: Floats, ends: Floats, tangents: Floats, above: Floats) -> None:
-    """The spline's derivatives by its parameter at places; where none is given at an end, free."""
+def _is_given(ends: Floats, j: int, count: int) -> bool:
+    """Whether the derivative at a place is given."""
+    return (j == 0 and not math.isnan(ends[0, 0])) or (
+        j == count - 1 and not math.isnan(ends[1, 0])
+    )
+
+
+@uncounted
+def _set_equations(places: Floats, steps: Floats, ends: Floats, spline: _Spline) -> None:
+    """Fill the equations of a spline, which of its ends are given among them."""
     count = places.shape[0]
+    per, diagonals, above, rises = spline
+    for j in range(count - 1):
+        per[j] = 1.0 / steps[j]
     for j in range(count):
-        low, diagonal, high = 0.0, 0.0, 0.0
-        for axis in range(2):
-            tangents[j, axis] = 0.0
-        is_given = (j == 0 and not math.isnan(ends[0, 0])) or (
-            j == count - 1 and not math.isnan(ends[1, 0])
-        )
-        if is_given:
+        if _is_given(ends, j, count):
             above[j] = 0.0
+            continue
+        diagonal = 0.0
+        for axis in range(2):
+            rises[j, axis] = 0.0
+        for i in (j - 1, j):
+            if 0 <= i < count - 1:
+                diagonal += 2.0 * per[i]
+                for axis in range(2):
+                    rise = places[i + 1, axis] - places[i, axis]
+                    rises[j, axis] += 3.0 * per[i] * per[i] * rise
+        if j > 0:
+            diagonal -= per[j - 1] * above[j - 1]
+        above[j] = (per[j] if j < count - 1 else 0.0) / diagonal
+        diagonals[j] = diagonal
+
+
+@uncounted
+def _solve(spline: _Spline, ends: Floats, tangents: Floats) -> None:
+    """The spline's derivatives by its parameter at places; where none is given at an end, free."""
+    count = tangents.shape[0]
+    per, diagonal, above, rises = spline
+    for j in range(count):
+        if _is_given(ends, j, count):
             for axis in range(2):
                 tangents[j, axis] = ends[min(j, 1), axis]
             continue
-        for i in (j - 1, j):
-            if 0 <= i < count - 1:
-                per = 1.0 / steps[i]
-                diagonal += 2.0 * per
-                for axis in range(2):
-                    tangents[j, axis] += 3.0 * per * per * (places[i + 1, axis] - places[i, axis])
-        if j > 0:
-            low = 1.0 / steps[j - 1]
-            diagonal -= low * above[j - 1]
-        if j < count - 1:
-            high = 1.0 / steps[j]
-        above[j] = high / diagonal
         for axis in range(2):
+            tangents[j, axis] = rises[j, axis]
             if j > 0:
-                tangents[j, axis] -= low * tangents[j - 1, axis]
-            tangents[j, axis] /= diagonal
+                tangents[j, axis] -= per[j - 1] * tangents[j - 1, axis]
+            tangents[j, axis] /= diagonal[j]
     for j in range(count - 2, -1, -1):
         for axis in range(2):
             tangents[j, axis] -= above[j] * tangents[j + 1, axis]
@@ -77,35 +117,38 @@ def _bent_at(places: Floats, steps: Floats, tangents: Floats, end: int, axis: in
 
 
 @inner
-def _round(places: Floats, steps: Floats, tangents: Floats, above: Floats) -> None:
+def _round(places: Floats, steps: Floats, tangents: Floats) -> None:
     """The tangents of a round: that at its seam from what its second derivative jumps by there."""
     ends, jumps, last = np.zeros((2, 2)), np.zeros(2), places.shape[0] - 1
-    _tangents(places, steps, ends, tangents, above)
+    spline = _room(last + 1)
+    _set_equations(places, steps, ends, spline)
+    _solve(spline, ends, tangents)
     for axis in range(2):
         jumps[axis] = _bent_at(places, steps, tangents, 0, axis)
         jumps[axis] -= _bent_at(places, steps, tangents, 1, axis)
     for axis in range(2):
         ends[0, axis], ends[1, axis] = 1.0, 1.0
-    _tangents(places, steps, ends, tangents, above)
+    _solve(spline, ends, tangents)
     for axis in range(2):
         jump = _bent_at(places, steps, tangents, 0, axis)
         jump -= _bent_at(places, steps, tangents, 1, axis)
         ends[0, axis] = ends[1, axis] = jumps[axis] / (jumps[axis] - jump)
-    _tangents(places, steps, ends, tangents, above)
+    _solve(spline, ends, tangents)
     for axis in range(2):
         tangents[last, axis] = tangents[0, axis]
 
 
 @inner
 def _straight_ends(
-    places: Floats, normals: Floats, steps: Floats, ends: Floats, tangents: Floats, above: Floats
+    places: Floats, normals: Floats, steps: Floats, ends: Floats, tangents: Floats
 ) -> None:  # fmt: skip
     """Move the places beside given ends along their normals until nothing bends there."""
     count = places.shape[0]
-    bent, moved = np.zeros(2), np.zeros(2)
+    bent, moved, spline = np.zeros(2), np.zeros(2), _room(count)
     for rounds in range(MAX_ROUNDS):
         _steps(places, steps)
-        _tangents(places, steps, ends, tangents, above)
+        _set_equations(places, steps, ends, spline)
+        _solve(spline, ends, tangents)
         worst = 0.0
         for end in range(2):
             if math.isnan(ends[end, 0]):
@@ -144,12 +187,12 @@ def strip_spans(places: Floats, normals: Floats, ends: Floats, closed: bool) -> 
         Bézier control polygons (n - 1, 4, 2) [m]; their curvature is continuous, and none at ends.
     """
     count = places.shape[0]
-    steps, tangents, above = np.empty(count - 1), np.empty((count, 2)), np.empty(count)
+    steps, tangents = np.empty(count - 1), np.empty((count, 2))
     if closed:
         _steps(places, steps)
-        _round(places, steps, tangents, above)
+        _round(places, steps, tangents)
     else:
-        _straight_ends(places, normals, steps, ends, tangents, above)
+        _straight_ends(places, normals, steps, ends, tangents)
     spans = np.empty((count - 1, 4, 2))
     for j in range(count - 1):
         for axis in range(2):

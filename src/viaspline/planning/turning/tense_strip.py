@@ -10,13 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.turning.settled_strip import (
-    KINK_RAD,
-    StripPlaces,
-    placed_strip,
-    settled_strip,
-)
-from viaspline.kernels.turning.strip_places import sharpest_step
+from viaspline.kernels.turning.settled_strip import StripPlaces, placed_strip, settled_strip
+from viaspline.kernels.turning.strip_places import has_kink
 from viaspline.kernels.turning.swept_sides import StripBody
 from viaspline.planning.turning.bendable_run import BendableRun, LaidRun
 from viaspline.world.world import World
@@ -88,7 +83,7 @@ class TenseStrip:
     @property
     def has_kink(self) -> bool:
         """Whether it turns so much from step to step that it is no curve any more."""
-        return not float(sharpest_step(self.strip.places)) < KINK_RAD
+        return bool(has_kink(self.strip.places))
 
     @property
     def laid(self) -> LaidRun:
