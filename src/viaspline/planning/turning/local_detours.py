@@ -170,6 +170,8 @@ def _routed(
         leg.ends[0] if leave is None else lane.at(leave),
         leg.ends[1] if meet is None else lane.at(meet),
     )
+    if leg.world.distance(np.array([end[:2] for end in ends])).min() < leg.router.floor:
+        return None  # a lattice takes long to say that there is no way to where no room is
     active = on_the_line(leg.world, *ends, needs.required)
 
     find = partial(leg.route_between, *ends)
