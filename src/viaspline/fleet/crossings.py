@@ -20,7 +20,7 @@ from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.space.meeting.spatial_crossings import spatial_crossings
 
 MAX_BOXES = 50_000_000
-"""How many boxes the crossings of a fleet may have: 2 GB."""
+"""How many boxes the crossings of a fleet may have: 1.4 GB."""
 
 BOXES_A_PAIR = 4
 """How many boxes a pair of pieces that are near each other has at least, in the mean."""

@@ -92,7 +92,7 @@ def _cut(
         robots=packed.robots[told[:, 0]],
         box_first=np.searchsorted(was, packed.box_first).astype(np.int64),
         cell=packed.cell[was],
-        crossing=crossing.astype(np.int64),
+        crossing=crossing.astype(np.int32),
         other=packed.other[was],
         low=low,
         high=high,

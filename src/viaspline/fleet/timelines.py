@@ -10,7 +10,7 @@ import numpy as np
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.lost_times import LostTimes, lost_times
 from viaspline.fleet.precedences import held_at
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats, Ints, Steps
 from viaspline.kernels.fleet.passing_order import passing_gaps
 
 SLOW_SHARE = 0.1
@@ -143,7 +143,7 @@ def _with_drives(begin: float, pieces: list[ActivitySpan], end: float) -> tuple[
     return tuple(found)
 
 
-def _waited_for(at: Ints, others: Ints, count: int) -> Ints:
+def _waited_for(at: Steps, others: Steps, count: int) -> Ints:
     """For whom a robot is held up at each node and in the cell after it; -1: for nobody, (count,).
 
     Args:

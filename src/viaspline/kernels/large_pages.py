@@ -13,7 +13,7 @@ from typing import Any
 import numba
 from numba.core import types
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats, Ints, Steps
 from viaspline.kernels.jit import inlined
 
 LEAST_BYTES = 1 << 22  # smaller tables aren't worth it; numpy's limit as well
@@ -28,7 +28,7 @@ if sys.platform == "linux" and not _config.DISABLE_JIT:
     )
 
     @inlined
-    def in_large_pages(table: Floats | Ints) -> None:
+    def in_large_pages(table: Floats | Ints | Steps) -> None:
         """Ask for large pages for a table that nothing is written to yet, if it is large."""
         if table.nbytes >= LEAST_BYTES:
             begin = (table.ctypes.data + PAGE - 1) // PAGE * PAGE  # only whole pages of its own
@@ -38,5 +38,5 @@ if sys.platform == "linux" and not _config.DISABLE_JIT:
 else:
 
     @inlined
-    def in_large_pages(table: Floats | Ints) -> None:
+    def in_large_pages(table: Floats | Ints | Steps) -> None:
         """There is nobody to ask."""

@@ -85,9 +85,9 @@ def crossings_on(courses: PackedCourses) -> PackedCrossings:
         np.array(robots, np.int64).reshape(-1, 2),
         np.array(spans, float).reshape(-1, 4),
         np.searchsorted(owner, np.arange(count + 1)).astype(np.int64),
-        np.array([box[1] for box in boxes], np.int64),
-        np.array([box[5] for box in boxes], np.int64),
-        np.array([box[2] for box in boxes], np.int64),
+        np.array([box[1] for box in boxes], np.int32),
+        np.array([box[5] for box in boxes], np.int32),
+        np.array([box[2] for box in boxes], np.int32),
         np.array([box[3] for box in boxes], float),
         np.array([box[4] for box in boxes], float),
     )

@@ -78,9 +78,9 @@ def _crossings_without(fleet: DrivenFleet, robot: int) -> PackedCrossings:
         robots=robots - (robots > robot),
         span=packed.span[stays],
         box_first=np.concatenate(([0], np.cumsum(counts))).astype(np.int64),
-        cell=packed.cell[kept] - gone * (owner > robot),
-        crossing=number[packed.crossing[kept]],
-        other=other - (other > robot),
+        cell=(packed.cell[kept] - gone * (owner > robot)).astype(np.int32),
+        crossing=number[packed.crossing[kept]].astype(np.int32),
+        other=(other - (other > robot)).astype(np.int32),
         low=packed.low[kept],
         high=packed.high[kept],
     )

@@ -13,7 +13,7 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings, box_owners
 from viaspline.fleet.lattice_order.lattice_paths import PassingSteps
-from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints, Steps
 
 CLEAR_MAJORITY = 0.5
 """Of the boxes of a crossing, those for one order less those for the other."""
@@ -129,7 +129,7 @@ def _forced(
     return is_last | is_first, is_last & ~is_first
 
 
-def _of_all(orders: PassingOrders, crossing: Ints, count: int) -> Flags:
+def _of_all(orders: PassingOrders, crossing: Steps, count: int) -> Flags:
     """The order of all boxes by what those of each crossing's lower robot say, (boxes,)."""
     lower = orders.is_lower
     seconds = np.bincount(crossing[lower], orders.second[lower], minlength=count)
@@ -144,7 +144,7 @@ def _of_all(orders: PassingOrders, crossing: Ints, count: int) -> Flags:
     return second
 
 
-def _at(steps: Sequence[PassingSteps], robots: Ints, distances: Floats) -> Floats:
+def _at(steps: Sequence[PassingSteps], robots: Ints | Steps, distances: Floats) -> Floats:
     """The step at which each of these robots is at a distance along its path."""
     found = np.empty(robots.size)
     by_robot = np.argsort(robots, kind="stable")

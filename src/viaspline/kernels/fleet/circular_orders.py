@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.arrays import Flags, Ints
+from viaspline.kernels.arrays import Flags, Ints, Steps
 from viaspline.kernels.fleet.blocked_times import node_before
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
@@ -39,7 +39,7 @@ class BoxWaits(NamedTuple):
 
 
 @inner
-def _first_of_each(nodes: Ints, count: int) -> Ints:
+def _first_of_each(nodes: Ints | Steps, count: int) -> Ints:
     """Where those of each node begin, once they are sorted by their nodes, (count + 1,)."""
     begin = np.zeros(count + 1, np.int64)
     for node in nodes:
@@ -80,7 +80,7 @@ def _without_one(left: Ints, node: int, todo: Ints, known: int) -> int:
 
 @uncounted
 def _take_away(
-    cell: Ints, waits: BoxWaits, second: Flags, ends: Flags, left: Ints, todo: Ints, known: int,
+    cell: Steps, waits: BoxWaits, second: Flags, ends: Flags, left: Ints, todo: Ints, known: int,
     way: int,
 ) -> None:  # fmt: skip
     """Take nodes away that nothing is before, or after, again and again (Kahn, 1962).

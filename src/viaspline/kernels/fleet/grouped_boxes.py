@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats, Ints, Steps
 from viaspline.kernels.fleet.near_boxes import HIGH, LOW, RawBoxes
-from viaspline.kernels.growable import new_floats, new_ints, sized_ints
+from viaspline.kernels.growable import new_floats, new_ints, new_steps, sized_ints
 from viaspline.kernels.jit import inner
 
 ROBOT: Final = 0
@@ -30,9 +30,9 @@ class GroupedBoxes(NamedTuple):
         of_robot: Where the groups of each robot begin, (n + 1, 1).
     """
 
-    cell: Ints
+    cell: Steps
     interval: Floats
-    crossing: Ints
+    crossing: Steps
     groups: Ints
     of_robot: Ints
 
@@ -72,7 +72,7 @@ def grouped(boxes: RawBoxes) -> GroupedBoxes:
     """Group the boxes of every robot by the other one."""
     robots, total = boxes.first.shape[0] - 1, boxes.cell.shape[0]
     groups, of_robot = _groups(boxes)
-    cell, interval, crossing = new_ints(total, 1), new_floats(total, 2), new_ints(total, 1)
+    cell, interval, crossing = new_steps(total, 1), new_floats(total, 2), new_steps(total, 1)
     group_of = new_ints(robots, 1)
     for robot in range(robots):
         for group in range(of_robot[robot, 0], of_robot[robot + 1, 0]):
@@ -122,7 +122,7 @@ def facing(boxes: GroupedBoxes) -> Ints:
 
 
 @inner
-def keep_crossing(boxes: RawBoxes, grouped: GroupedBoxes, first: Ints, crossing: Ints) -> int:
+def keep_crossing(boxes: RawBoxes, grouped: GroupedBoxes, first: Ints, crossing: Steps) -> int:
     """Leave out what is in no crossing, in place. How many boxes there are then.
 
     Args:

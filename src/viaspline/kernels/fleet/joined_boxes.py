@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats, Ints, Steps
 from viaspline.kernels.fleet.box_runs import (
     Runs,
     cut_runs,
@@ -79,7 +79,7 @@ def _name(
 
 
 @kernel
-def joined_boxes(courses: PackedCourses, boxes: RawBoxes) -> tuple[Ints, Floats, Ints, Ints, int]:
+def joined_boxes(courses: PackedCourses, boxes: RawBoxes) -> tuple[Ints, Floats, Ints, Steps, int]:
     """Crossings from the boxes of every robot.
 
     Args:

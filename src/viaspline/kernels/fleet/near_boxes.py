@@ -14,12 +14,18 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats, Ints, Steps
 from viaspline.kernels.fleet import packed_pieces as columns
 from viaspline.kernels.fleet.near_pieces import TOUCHING
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_pieces import MOST_CELLS, PackedPieces
-from viaspline.kernels.growable import new_floats, new_ints, sized_floats, sized_ints
+from viaspline.kernels.growable import (
+    new_floats,
+    new_ints,
+    new_steps,
+    sized_floats,
+    sized_steps,
+)
 from viaspline.kernels.jit import inlined, kernel
 
 LOW: Final = 0
@@ -48,8 +54,8 @@ class RawBoxes(NamedTuple):
     """
 
     first: Ints
-    cell: Ints
-    other: Ints
+    cell: Steps
+    other: Steps
     low: Floats
     high: Floats
 
@@ -194,7 +200,7 @@ def near_boxes(
     """
     robots, room = courses.reach.shape[0], 3 * near.shape[0] + 16
     box_first = new_ints(robots + 1, 1)
-    cell, other = new_ints(room, 1), new_ints(room, 1)  # what isn't written costs nothing
+    cell, other = new_steps(room, 1), new_steps(room, 1)  # what isn't written costs nothing
     low, high = new_floats(room, 1), new_floats(room, 1)
     counts, cells = new_ints(MOST_CELLS, 1), new_floats(MOST_CELLS + 1, CELL_COLUMNS)
     others, intervals = new_ints(MOST_CELLS * 64, 1), new_floats(MOST_CELLS * 64, 2)
@@ -212,7 +218,7 @@ def near_boxes(
             intervals = new_floats(2 * among * MOST_CELLS, 2)
         if boxes + among * MOST_CELLS > room:
             room = 2 * (boxes + among * MOST_CELLS)
-            cell, other = sized_ints(cell, boxes, room), sized_ints(other, boxes, room)
+            cell, other = sized_steps(cell, boxes, room), sized_steps(other, boxes, room)
             low, high = sized_floats(low, boxes, room), sized_floats(high, boxes, room)
         for k in range(MOST_CELLS):
             counts[k, 0] = 0

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats, Ints, Steps
 
 
 class PackedCrossings(NamedTuple):
@@ -33,8 +33,8 @@ class PackedCrossings(NamedTuple):
     robots: Ints
     span: Floats
     box_first: Ints
-    cell: Ints
-    crossing: Ints
-    other: Ints
+    cell: Steps
+    crossing: Steps
+    other: Steps
     low: Floats
     high: Floats

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints, Steps
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
-from viaspline.kernels.growable import new_floats, new_ints
+from viaspline.kernels.growable import new_floats, new_steps
 from viaspline.kernels.jit import inlined, inner, kernel
 
 
@@ -113,7 +113,7 @@ def _put_all(
 @kernel
 def renewed_boxes(
     kept: PackedCrossings, fresh: PackedCrossings, is_changed: Flags, moved: Ints
-) -> tuple[Ints, Floats, Ints, Ints, Ints, Ints, Floats, Floats]:
+) -> tuple[Ints, Floats, Ints, Steps, Steps, Steps, Floats, Floats]:
     """The crossings of the fleet: those that stay, and those that are found anew.
 
     Args:
@@ -130,8 +130,8 @@ def renewed_boxes(
     first = _box_counts(kept, fresh, number, loses)
     boxes = first[first.size - 1]
     to = PackedCrossings(
-        robots, span, first, new_ints(boxes, 1)[:, 0], new_ints(boxes, 1)[:, 0],
-        new_ints(boxes, 1)[:, 0], new_floats(boxes, 1)[:, 0], new_floats(boxes, 1)[:, 0],
+        robots, span, first, new_steps(boxes, 1)[:, 0], new_steps(boxes, 1)[:, 0],
+        new_steps(boxes, 1)[:, 0], new_floats(boxes, 1)[:, 0], new_floats(boxes, 1)[:, 0],
     )  # fmt: skip
     at = 0
     for robot in range(is_changed.size):

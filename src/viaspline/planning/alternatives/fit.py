@@ -150,7 +150,7 @@ def untied(sequence: ViaSequence, spans: Floats) -> ViaSequence:
 
     Where a heading is given the curve may have to come round.
     """
-    legs = np.diff(spans[:, :, :2], axis=1)
+    legs = spans[:, 1:, :2] - spans[:, :-1, :2]
     ahead, after = legs[:, :-1], legs[:, 1:]
     cross = ahead[..., 0] * after[..., 1] - ahead[..., 1] * after[..., 0]
     turns = np.abs(np.arctan2(cross, (ahead * after).sum(axis=2))).sum(axis=1)

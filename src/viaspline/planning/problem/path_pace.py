@@ -18,6 +18,8 @@ from viaspline.mission.robot_parts import RobotSpec
 
 RADII_TRIED: Final = 24
 """Radii of a corner that are compared, evenly in their logarithm."""
+SHARES_TRIED: Final = np.linspace(0.0, 1.0, RADII_TRIED)
+"""Of the way from the least to the widest, in that."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +77,7 @@ class Pace:
         if self.widest_radius <= 0.0:
             return kept.copy()
         radii, time = self._corners(turns, kept)
-        found: Floats = np.take_along_axis(radii, time.argmin(axis=1)[:, None], axis=1)[:, 0]
+        found: Floats = radii[np.arange(len(radii)), time.argmin(axis=1)]
         return found
 
     def corner_times(self, turns: Floats) -> Floats:
@@ -98,8 +100,7 @@ class Pace:
         theta, least = np.abs(turns)[:, None], kept[:, None]
         widest = np.maximum(least, self.widest_radius)
         lowest = np.maximum(least, 1e-3 * widest)
-        share = np.linspace(0.0, 1.0, RADII_TRIED)
-        radii = lowest * (widest / lowest) ** share
+        radii = lowest * (widest / lowest) ** SHARES_TRIED
         driven = np.minimum(np.sqrt(self.lateral * radii), self.yaw_rate * radii)
         driven = np.minimum(driven, self.speed)
         longer = (radii - least) * (theta - 2.0 * np.sin(0.5 * theta))

@@ -45,6 +45,9 @@ def soonest_end_turns(
         None where not even the least turns are clear.
     """
     sided, caps = tuple(with_sides(bends)), _caps(turns.pace, bends, rests)
+    if len(sided) == len(caps) == 1:
+        row = _capped(bends, caps[0], rests)
+        return turns.narrowed(row, world, requirements) or turns.pushed(bends, world, requirements)
     laid: dict[tuple[int, int], TurnPath] = {}
     times: dict[tuple[int, int], float] = {}
 

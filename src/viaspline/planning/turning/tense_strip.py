@@ -5,7 +5,7 @@ Tested through ``planning/methods/test_bent_gently``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -55,7 +55,7 @@ class TenseStrip:
         strip = placed_strip(
             self.world.packed, self.body, run.ends, run.closed, FINE, self.spans, self.joints
         )  # fmt: skip
-        return replace(self, fineness=FINE, strip=strip, is_settled=False)
+        return TenseStrip(run, self.world, self.body, FINE, strip)
 
     def settled(self, tension: float, settled: float) -> TenseStrip:
         """It with its places moved to where that costs least, for some rounds at most.
@@ -68,7 +68,7 @@ class TenseStrip:
             self.world.packed, self.body, self.run.ends, self.fineness, self.strip, tension,
             settled,
         )  # fmt: skip
-        return replace(self, strip=strip, is_settled=is_settled)
+        return TenseStrip(self.run, self.world, self.body, self.fineness, strip, is_settled)
 
     @property
     def spans(self) -> Floats:
@@ -89,7 +89,8 @@ class TenseStrip:
     def laid(self) -> LaidRun:
         """It as a run of a path, with a detour via point wherever it touches something."""
         rooms = self.strip.rooms
-        around = np.r_[np.inf, rooms, np.inf]
+        around = np.full(len(rooms) + 2, np.inf)
+        around[1:-1] = rooms
         lowest = (rooms < around[:-2]) & (rooms <= around[2:])
         touches = np.flatnonzero(lowest & (rooms < TOUCHES * self.body.required))
         return LaidRun(self.spans, self.joints, touches[touches < len(self.spans)])

@@ -151,6 +151,9 @@ def with_sides(bends: Bends) -> Iterator[Bends]:
     its line, that is known only once the turns have settled. The other one goes to the other side.
     """
     given = _given(bends)
+    if not given:
+        yield bends
+        return
     for sides in product(*((0.0, -_lesser_side(bends.rows, k)) for k in given)):
         rows = bends.rows.copy()
         for k, side in zip(given, sides, strict=True):

@@ -204,8 +204,8 @@ def _in_order(rows: list[list[tuple[int, Ints, Floats, Floats]]]) -> RawBoxes:
     every = np.concatenate(parts)
     return RawBoxes(
         np.array(first, np.int64),
-        every[:, 0].astype(np.int64),
-        every[:, 1].astype(np.int64),
+        every[:, 0].astype(np.int32),
+        every[:, 1].astype(np.int32),
         every[:, 2].copy(),
         every[:, 3].copy(),
     )
