@@ -99,12 +99,13 @@ def held_at(
         robot: Which one.
     """
     packed = crossings.packed
-    late = laws.packed.arrive - alone.packed.arrive
-    boxes = np.arange(packed.box_first[robot], packed.box_first[robot + 1])
-    tight = boxes[(gaps[boxes] >= 0.0) & (gaps[boxes] < TIGHT_S)]
+    begin, end = packed.box_first[robot : robot + 2].tolist()
+    own = gaps[begin:end]
+    tight = begin + np.flatnonzero((own >= 0.0) & (own < TIGHT_S))
+    cells = packed.cell[tight]
+    late = laws.packed.arrive[cells] - alone.packed.arrive[cells]
     found, before = [], 0.0
-    for box in tight.tolist():
-        now = float(late[packed.cell[box]])
+    for box, now in zip(tight.tolist(), late.tolist(), strict=True):
         if now > before + TIGHT_S:
             found.append((box, now - before))
             before = now

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_orders import (
     FleetOrders,
@@ -18,7 +19,7 @@ from viaspline.fleet.execution.fleet_orders import (
     orders_led,
 )
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
 
 KEPT = (
@@ -46,14 +47,7 @@ def carried_over(
             orders have a cycle.
     """
     kept = _kept(before, after)
-    leaders, by_second = laws_order(after)
-    for c, found in _same_crossings(before, after, kept).items():
-        old_leader = int(state.packed.leaders[found])
-        if old_leader >= 0:
-            number = int(np.flatnonzero(kept == old_leader)[0])
-            was_swapped = old_leader != state.orders.leaders[found]
-            by_second[c] = was_swapped or bool(state.orders.by_second[found])
-            leaders[c] = number
+    leaders, by_second = _same_orders(state, before, after, kept)
     check_settled(after, leaders)
     progress = np.where(kept >= 0, state.packed.progress[kept], 0.0)
     fixed = (kept >= 0) & state.packed.fixed[kept]
@@ -61,12 +55,11 @@ def carried_over(
     orders = orders_led(after, leaders, by_second, back, progress, fixed)
     new = FleetProgressState.at_start(after, orders)
     packed = new.packed
-    for robot in np.flatnonzero(kept >= 0):
-        old = kept[robot]
-        for now, was in zip(packed[1:], state.packed[1:], strict=True):
-            now[robot] = was[old]
-        for name in KEPT:
-            getattr(new, name)[robot] = getattr(state, name)[old]
+    robots = np.flatnonzero(kept >= 0)
+    for now, was in zip(packed[1:], state.packed[1:], strict=True):
+        now[robots] = was[kept[robots]]
+    for name in KEPT:
+        getattr(new, name)[robots] = getattr(state, name)[kept[robots]]
     packed.head[:] = orders.packed.first[:-1]
     packed.recall[:] = -1
     packed.recall_place[:] = np.inf
@@ -97,29 +90,69 @@ def _kept(before: DrivenFleet, after: DrivenFleet) -> Ints:
         old = numbers.get(name, -1)
         if old >= 0:
             (d0, p0), (d1, p1) = before.course(old), after.course(robot)
-            same = d0.shape == d1.shape and np.allclose(d0, d1, rtol=0.0, atol=SAME_M)
-            if same and np.allclose(p0, p1, rtol=0.0, atol=SAME_M):
+            if _is_same(d0, d1) and _is_same(p0, p1):
                 kept[robot] = old
     return kept
 
 
-def _same_crossings(before: DrivenFleet, after: DrivenFleet, kept: Ints) -> dict[int, int]:
-    """Crossings of robots that keep their paths, and what their numbers were before."""
+def _is_same(one: Floats, other: Floats) -> bool:
+    """Whether two rows of places are one but for rounding; mostly they are the very same."""
+    if one.shape != other.shape:
+        return False
+    return bool((one == other).all()) or np.allclose(one, other, rtol=0.0, atol=SAME_M)
 
-    def key(pair: list[int], span: Floats) -> tuple[object, ...]:
-        ends = span.reshape(2, 2) if pair[0] < pair[1] else span.reshape(2, 2)[::-1]
-        return (*sorted(pair), *np.round(ends.ravel() / SAME_M / 10.0).tolist())
 
-    old = before.crossings.packed
-    known = {key(old.robots[c].tolist(), old.span[c]): c for c in range(len(old.robots))}
-    new, found = after.crossings.packed, {}
-    for c, pair in enumerate(new.robots.tolist()):
-        was = [int(kept[robot]) for robot in pair]
-        if min(was) >= 0:
-            number = known.get(key(was, new.span[c]))
-            if number is not None:
-                found[c] = number
-    return found
+def _same_orders(
+    state: FleetProgressState, before: DrivenFleet, after: DrivenFleet, kept: Ints
+) -> tuple[Ints, Flags]:
+    """Who passes each crossing first, and by whose boxes: as it was, else by the laws."""
+    new, old = _same_crossings(before, after, kept)
+    was = state.packed.leaders[old]
+    new, old, was = new[was >= 0], old[was >= 0], was[was >= 0]
+    is_open = np.ones(len(after.crossings.packed.robots), np.bool_)
+    is_open[new] = False
+    leaders, by_second = laws_order(_with_boxes_of(after, is_open))
+    number = np.full(len(before.names), -1)
+    number[kept[kept >= 0]] = np.flatnonzero(kept >= 0)
+    leaders[new] = number[was]
+    by_second[new] = (was != state.orders.leaders[old]) | state.orders.by_second[old]
+    return leaders, by_second
+
+
+def _with_boxes_of(fleet: DrivenFleet, chosen: Flags) -> DrivenFleet:
+    """A fleet without the boxes of any but some of its crossings, (c,)."""
+    crossings = fleet.crossings.packed
+    boxes = np.flatnonzero(chosen[crossings.crossing])
+    packed = crossings._replace(
+        box_first=np.searchsorted(boxes, crossings.box_first).astype(np.int64),
+        cell=crossings.cell[boxes], crossing=crossings.crossing[boxes],
+        other=crossings.other[boxes], low=crossings.low[boxes], high=crossings.high[boxes],
+    )  # fmt: skip
+    return replace(fleet, crossings=FleetCrossings(packed))
+
+
+def _same_crossings(before: DrivenFleet, after: DrivenFleet, kept: Ints) -> tuple[Ints, Ints]:
+    """Crossings of robots that keep their paths, and what their numbers were before, (k,) each."""
+    old, new = before.crossings.packed, after.crossings.packed
+    is_kept = np.zeros(len(before.names), np.bool_)
+    is_kept[kept[kept >= 0]] = True
+    olds = np.flatnonzero(is_kept[old.robots].all(axis=1))
+    news = np.flatnonzero((kept[new.robots] >= 0).all(axis=1))
+    was = _keys(old.robots[olds], old.span[olds])
+    now = _keys(kept[new.robots[news]], new.span[news])
+    if np.array_equal(was, now):  # so it is where no robot's number changes
+        return news, olds
+    known = dict(zip(map(tuple, was.tolist()), olds.tolist(), strict=True))
+    number = np.array([known.get(tuple(key), -1) for key in now.tolist()], np.int64)
+    return news[number >= 0], number[number >= 0]
+
+
+def _keys(robots: Ints, span: Floats) -> Floats:
+    """What tells a crossing from others: its robots, the lower one first, and its place, (k, 6)."""
+    is_turned = robots[:, 0] > robots[:, 1]
+    pairs = np.where(is_turned[:, None], robots[:, ::-1], robots)
+    ends = np.where(is_turned[:, None], span[:, [2, 3, 0, 1]], span)
+    return np.column_stack((pairs, np.round(ends / SAME_M / 10.0)))
 
 
 def let_in_too_early(orders: FleetOrders, promised: Floats, progress: Floats) -> dict[int, int]:

@@ -14,6 +14,7 @@ from viaspline.kernels.fleet.crossing_bars import crossing_bars, set_bar_times
 from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
 from viaspline.kernels.fleet.order_flow import expected_shifts, order_flow
 from viaspline.kernels.fleet.packed_orders import PackedOrders
+from viaspline.kernels.fleet.sorted_bars import sorted_bars
 
 END_M = 1e-9
 """So near its end a place is the end of a path."""
@@ -164,10 +165,7 @@ def _packed(fleet: DrivenFleet, leaders: Ints, by_second: Flags) -> PackedOrders
     courses, crossings = fleet.courses.packed, fleet.crossings.packed
     who, where = crossing_bars(courses, crossings, leaders, by_second)
     lengths, vanishes = fleet.lengths, fleet.rides.vanishes
-    order = np.lexsort((where[:, 1], who[:, 2], where[:, 0], who[:, 0]))
-    who, where = who[order], where[order]
-    robot, other, crossing = np.ascontiguousarray(who.T)
-    place, passed = np.ascontiguousarray(where.T)
+    first, other, crossing, place, passed = sorted_bars(who, where, len(fleet.names))
     at_end = passed >= lengths[other] - END_M
     passed[at_end & vanishes[other]] = np.inf
     may_lead = np.ones((len(leaders), 2), np.bool_)
@@ -175,7 +173,7 @@ def _packed(fleet: DrivenFleet, leaders: Ints, by_second: Flags) -> PackedOrders
     side = (crossings.robots[crossing, 1] == other).astype(np.int64)
     may_lead[crossing[never], side[never]] = False
     orders = PackedOrders(
-        first=np.searchsorted(robot, np.arange(len(fleet.names) + 1)).astype(np.int64),
+        first=first,
         place=place,
         other=other,
         passed=passed,

@@ -19,7 +19,9 @@ from viaspline.fleet.renewed_crossings import renewed_crossings
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.packed_courses import PackedCourses
+from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
@@ -75,8 +77,10 @@ def joined_fleet(
         raise _in_the_way(grown, robot, int(others[k]), float(own[k, 0]))
     inside = np.flatnonzero(may_be_in).tolist()
     depart = float(grown.rides.depart[robot])
+    boxes = _own_boxes(grown.crossings.packed, robot)
+    passages = passages_of(grown.courses.packed, boxes)
     for _ in range(MAX_ROUNDS):
-        timed = _timed(grown, robot, depart)
+        timed = _timed(grown, robot, depart, boxes, passages)
         wait = 0.0
         for k in inside:
             leaves = _goes(timed, int(others[k]), float(theirs[k, 1]))
@@ -211,18 +215,38 @@ def _joined_rides(at: _Place, before: PackedRides, new: PackedRides) -> PackedRi
     )
 
 
-def _timed(fleet: DrivenFleet, robot: int, depart: float) -> DrivenFleet:
-    """The fleet with the law of a robot that sets out at some time, as early as it can."""
+def _own_boxes(crossings: PackedCrossings, robot: int) -> PackedCrossings:
+    """Crossings with no other boxes than a robot's: it is timed by these alone."""
+    begin, end = crossings.box_first[robot : robot + 2].tolist()
+    return crossings._replace(
+        box_first=np.clip(crossings.box_first - begin, 0, end - begin),
+        cell=crossings.cell[begin:end], crossing=crossings.crossing[begin:end],
+        other=crossings.other[begin:end], low=crossings.low[begin:end],
+        high=crossings.high[begin:end],
+    )  # fmt: skip
+
+
+def _timed(
+    fleet: DrivenFleet, robot: int, depart: float, crossings: PackedCrossings,
+    passages: PackedPassages,
+) -> DrivenFleet:  # fmt: skip
+    """The fleet with the law of a robot that sets out at some time, as early as it can.
+
+    Args:
+        fleet: In which it has no law.
+        robot: Its number.
+        depart: When it sets out [s].
+        crossings: With its boxes.
+        passages: Of these.
+    """
     departs = fleet.rides.depart.copy()
     departs[robot] = depart
     rides, old = fleet.rides._replace(depart=departs), fleet.laws.packed
     laws = PackedLaws(old.arrive.copy(), old.leave.copy(), old.speed.copy(), old.is_timed.copy())
-    crossings = fleet.crossings.packed
     courses = fleet.courses.packed
-    passages = passages_of(courses, crossings)
     (box,) = timed_in_order(courses, crossings, passages, rides, laws, np.array([robot]))
     if box != CLEAR:
-        place = float(fleet.courses.packed.distance[crossings.cell[box]])
+        place = float(courses.distance[crossings.cell[box]])
         raise _in_the_way(fleet, robot, int(crossings.other[box]), place)
     return replace(fleet, laws=FleetLaws(laws), rides=rides)
 

@@ -13,12 +13,12 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
-from viaspline.kernels.fleet.blocked_times import comes_to
+from viaspline.kernels.fleet.blocked_times import comes_in_cell, node_before, node_near
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_orders import PackedOrders
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inlined, kernel
 
 
 @kernel
@@ -67,6 +67,28 @@ def crossing_bars(
     return who[:count], where[:count]
 
 
+@inlined
+def _bar_near(place: Floats, begin: int, end: int, bar: int, passed: float) -> int:
+    """The first bar of a robot that isn't before a place, sought from one nearby on."""
+    while bar < end and place[bar] < passed:
+        bar += 1
+    while bar > begin and place[bar - 1] >= passed:
+        bar -= 1
+    return bar
+
+
+@inlined
+def _first_bar(place: Floats, begin: int, end: int, passed: float) -> int:
+    """The first bar of a robot that isn't before a place."""
+    while begin < end:
+        middle = (begin + end) // 2
+        if place[middle] < passed:
+            begin = middle + 1
+        else:
+            end = middle
+    return begin
+
+
 @kernel
 def set_bar_times(courses: PackedCourses, alone: PackedLaws, orders: PackedOrders) -> None:
     """Reckon when robots that never wait come to bars, and past them.
@@ -76,17 +98,26 @@ def set_bar_times(courses: PackedCourses, alone: PackedLaws, orders: PackedOrder
         alone: The laws of robots that set out at 0 and never wait for another.
         orders: ``comes``, ``other_comes`` and ``since`` are written to.
     """
+    count = orders.robots.shape[0]
+    nodes = np.full((count, 2), -1)  # of the other, by the bar before of the crossing and side
+    bars = np.full((count, 2), -1)  # and its bars
     for robot in range(orders.length.size):
+        k, last = courses.first[robot], courses.first[robot + 1] - 1
         for b in range(orders.first[robot], orders.first[robot + 1]):
-            other = orders.other[b]
+            c, other, place = orders.crossing[b], orders.other[b], orders.place[b]
+            side = 0 if orders.robots[c, 0] == robot else 1
             passed = min(orders.passed[b], orders.length[other])
-            orders.comes[b] = max(comes_to(courses, alone, robot, orders.place[b]), 0.0)
-            orders.other_comes[b] = max(comes_to(courses, alone, other, passed), 0.0)
+            k = node_near(courses.distance, courses.first[robot], last, k, place)
+            orders.comes[b] = max(comes_in_cell(courses, alone, robot, k, place), 0.0)
+            first, end = courses.first[other], courses.first[other + 1] - 1
             low, high = orders.first[other], orders.first[other + 1]
-            while low < high:
-                middle = (low + high) // 2
-                if orders.place[middle] < passed:
-                    low = middle + 1
-                else:
-                    high = middle
-            orders.since[b] = low - 1 if low > orders.first[other] else -1
+            if nodes[c, side] < 0:
+                nodes[c, side] = node_before(courses.distance, first, end, passed)
+                bars[c, side] = _first_bar(orders.place, low, high, passed)
+            else:
+                nodes[c, side] = node_near(courses.distance, first, end, nodes[c, side], passed)
+                bars[c, side] = _bar_near(orders.place, low, high, bars[c, side], passed)
+            orders.other_comes[b] = max(
+                comes_in_cell(courses, alone, other, nodes[c, side], passed), 0.0
+            )
+            orders.since[b] = bars[c, side] - 1 if bars[c, side] > low else -1

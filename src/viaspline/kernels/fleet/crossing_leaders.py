@@ -17,11 +17,16 @@ from typing import Final
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Ints
-from viaspline.kernels.fleet.blocked_times import comes_to, goes_from
+from viaspline.kernels.fleet.blocked_times import (
+    comes_in_cell,
+    goes_in_cell,
+    node_before,
+    node_near,
+)
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inlined, kernel
 
 UNSETTLED: Final = -1
 """The laws keep no order in a crossing."""
@@ -29,6 +34,15 @@ UNTIMED: Final = -2
 """One of its robots has no law."""
 ROUNDING_S = 1e-6
 """So much of an overlap in time is rounding: the bars are what keeps robots apart."""
+
+
+@inlined
+def _node(courses: PackedCourses, robot: int, known: int, place: float) -> int:
+    """The last node of a course before a place, sought from one nearby on if one is known."""
+    first, last = courses.first[robot], courses.first[robot + 1] - 1
+    if known < 0:
+        return node_before(courses.distance, first, last, place)
+    return node_near(courses.distance, first, last, known, place)
 
 
 @kernel
@@ -51,6 +65,7 @@ def crossing_leaders(
     before = np.ones((count, 2), np.bool_)
     earlier = np.zeros((count, 2), np.bool_)  # there is a box at which the one is first
     has_boxes = np.zeros((count, 2), np.bool_)
+    nodes = np.full((count, 4), -1)  # of the box before, from either side
     for robot in range(crossings.box_first.size - 1):
         if not laws.is_timed[robot]:
             continue
@@ -62,9 +77,12 @@ def crossing_leaders(
             side = 0 if crossings.robots[c, 0] == robot else 1
             has_boxes[c, side] = True
             comes = -np.inf if cell == start else laws.arrive[cell]
-            gone = goes_from(courses, laws, other, crossings.high[b])
+            low, high = crossings.low[b], crossings.high[b]
+            nodes[c, side] = _node(courses, other, nodes[c, side], low)
+            nodes[c, 2 + side] = _node(courses, other, nodes[c, 2 + side], high)
+            gone = goes_in_cell(courses, laws, other, nodes[c, 2 + side], high)
             goes = laws.leave[end] if cell + 1 == end else laws.arrive[cell + 1]
-            there = comes_to(courses, laws, other, crossings.low[b])
+            there = comes_in_cell(courses, laws, other, nodes[c, side], low)
             is_after, is_before = gone <= comes + ROUNDING_S, goes <= there + ROUNDING_S
             after[c, side] &= is_after
             before[c, side] &= is_before
