@@ -123,3 +123,22 @@ def test_turns_are_given_up_where_a_spline_keeps_sides_on_which_no_route_is_foun
     monkeypatch.setattr(LegSearch, "shortest_allowed", lambda *_: refused)
     with pytest.raises(vs.GaveUpError):
         lay([TurnsOnShortest()], [0, 0], [20, 0], [20, 20])
+
+
+@pytest.mark.parametrize("optimise", ["time", "length"])
+def test_a_goal_close_beside_a_wide_disc_is_reached_without_going_right_round_it(
+    optimise: str,
+) -> None:
+    """The line between the last disc's middle and the goal lies a quarter turn off its tangent."""
+    centres = ([4.727, 3.2586], [4.967, 6.2524], [2.2542, 4.9634])
+    mission = vs.Mission.model_validate(
+        {
+            "world": {"known": [{"circle": {"center": at, "radius": 0.98}} for at in centres]},
+            "robot": {"radius_m": 0.468, "clearance_m": 0},
+            "route": {"start": [7, 6], "goal": [2.58, 3.433], "optimise": optimise},
+        }
+    )
+    path = vs.plan(mission).path
+    turned = np.unwrap(path.heading(np.linspace(0, len(path.spans), 2001)))
+    assert path.length < 5.3
+    assert np.ptp(turned) < np.pi

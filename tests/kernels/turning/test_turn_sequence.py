@@ -2,6 +2,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from viaspline.curve.piecewise import PiecewiseCubic
@@ -103,6 +105,23 @@ def test_a_turn_stays_outside_of_what_it_goes_round():
     gaps = np.linalg.norm(curve.evaluate(np.linspace(*curve.domain, 5001)) - [30, 2], axis=1)
     assert gaps.min() == pytest.approx(3.0, abs=1e-3)
     assert gaps.min() > 3.0 - 1e-4
+
+
+@given(
+    turn=st.floats(0.02, 3.9), before=st.floats(0.03, 5.0), after=st.floats(0.03, 5.0),
+    side=st.sampled_from((-1.0, 1.0)),
+)  # fmt: skip
+@example(turn=0.109, before=0.46, after=0.11, side=-1.0)  # the goal is close beside what is wide
+def test_a_turn_goes_no_farther_round_than_the_taut_way(turn, before, after, side):
+    """The way touches a circle of 1 m, goes along it by so much and leaves it."""
+    touched = np.array([0.0, -side])
+    left = side * np.array([math.sin(side * turn), -math.cos(side * turn)])
+    goal = left + after * np.array([math.cos(side * turn), math.sin(side * turn)])
+    rows = bends_through([touched - (before, 0.0), (0.0, 0.0), goal])
+    rows[1, KEPT], rows[1, SIDE], rows[:, RADIUS] = 1.0, side, 0.05
+    kept, _, turns, *_, state, _ = needed_turns(rows, False, 1.0)
+    assert (len(kept), state) == (3, FINE)
+    assert side * turns[1] == pytest.approx(turn, abs=0.1)
 
 
 def test_there_and_back_again_swings_out_to_a_turn_of_less_than_half_a_circle():

@@ -11,19 +11,28 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.jit import uncounted
-from viaspline.kernels.turning.settled_lines import KEPT, SIDE, X, Y, wrapped
+from viaspline.kernels.turning.settled_lines import KEPT, SIDE, X, Y, touching_line, wrapped
 
 GUESSED_ABOUT = 2  # lines before and after one at which it failed, that are guessed again with it
+# A turn between the middles of bends, to a bend's side, beyond which that may be a whole turn more
+# than the tangents make: each lies up to a quarter turn off the line between the middles [rad].
+SURE_TURN_RAD = 0.5 * math.pi
+MIDDLE_TURN_RAD = 0.75 * math.pi  # of those that are looked for between tangents
 
 
 @uncounted
 def guess_lines(bends: Floats, closed: bool, lines: Floats, turns: Floats, circles: Floats) -> None:
-    """Begin with the polyline through the bends' middles, and circles of what is kept."""
+    """Begin with the polyline through the bends' middles, and circles of what is kept.
+
+    Where that turns far, the tangents of these circles say whether it goes right round one.
+    """
     count, last = bends.shape[0], lines.shape[0]
     for k in range(last):
         lines[k] = _middles_line(bends, k)
     for k in range(count):
         _guess_turn(bends, closed, k, lines, turns, circles)
+    for k in range(count):
+        _touch_where_far(bends, closed, k, lines, turns, circles)
 
 
 @uncounted
@@ -56,6 +65,32 @@ def guess_again(
             if closed or 0 <= i < count:
                 _guess_turn(bends, closed, i % count, lines, turns, circles)
                 laid[i % count] = np.inf
+    for k in range(last):
+        if not tight[k]:
+            continue
+        for i in range(k - GUESSED_ABOUT, k + GUESSED_ABOUT + 2):
+            if closed or 0 <= i < count:
+                _touch_where_far(bends, closed, i % count, lines, turns, circles)
+
+
+@uncounted
+def _touch_where_far(
+    bends: Floats, closed: bool, k: int, lines: Floats, turns: Floats, circles: Floats
+) -> None:
+    """Guess the lines at a bend by tangents, where those between middles turn far at it."""
+    count, last = bends.shape[0], lines.shape[0]
+    is_inside = closed or 0 < k < count - 1
+    if not is_inside or bends[k, SIDE] * turns[k] <= SURE_TURN_RAD:
+        return
+    for i in range(k - 1, k + 1):
+        line = touching_line(circles, i % last, (i + 1) % count)
+        if not math.isnan(line):
+            lines[i % last] = line
+    turns[k] = bends[k, SIDE] * MIDDLE_TURN_RAD
+    for i in range(k - 1, k + 2):
+        if closed or 0 < i < count - 1:
+            at = i % count
+            turns[at] = wrapped(lines[at % last] - lines[(at - 1) % last], turns[at])
 
 
 @uncounted

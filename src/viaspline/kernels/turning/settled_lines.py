@@ -44,7 +44,7 @@ def wrapped(angle: float, about: float) -> float:
 
 
 @uncounted
-def _line(circles: Floats, i: int, j: int) -> float:
+def touching_line(circles: Floats, i: int, j: int) -> float:
     """Heading of the line that touches circle i and then circle j; NaN where there is none."""
     dx = circles[j, 0] - circles[i, 0]
     dy = circles[j, 1] - circles[i, 1]
@@ -225,7 +225,7 @@ def settle(
         for k in range(last):
             after = (k + 1) % count
             if fresh[k] or fresh[after]:
-                touching[k] = _line(circles, k, after)
+                touching[k] = touching_line(circles, k, after)
             tight[k] = math.isnan(touching[k])  # stays, until its ends have found their places
             missing = missing or tight[k]
             steps_before[k] = steps[k]
