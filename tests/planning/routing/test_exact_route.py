@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.maps.grid import Grid
@@ -52,6 +52,36 @@ def test_more_obstacles_than_allowed_prove_nothing(row: World) -> None:
 def test_few_obstacles_are_left_to_the_others_where_that_is_said(row: World) -> None:
     assert isinstance(ExactRoute(more_than=5).lay(problem(row, (0, 0), (60, 0))), GaveUp)
     assert isinstance(ExactRoute(more_than=4).lay(problem(row, (0, 0), (60, 0))), Found)
+
+
+@pytest.mark.parametrize("way", [(10, 0), (-10, 0), (0, 10), (0, -10), (8, 6), (-6, 8)])
+@pytest.mark.parametrize("end", [-1.0, 1.0])
+def test_a_wall_is_gone_round_at_its_nearer_end_however_it_lies(way: Any, end: float) -> None:
+    along = np.array(way) / 10.0
+    across = np.array([-along[1], along[0]])
+    wall = Obstacle(capsule={"from": tuple(-5.0 * along), "to": tuple(5.0 * along), "radius": 0.5})
+    sides = [3.0 * end * along + away * across for away in (-3.0, 3.0)]
+    found = ExactRoute().lay(problem(World([wall]), *sides))
+    leaves = np.hypot(2.0, 3.0)  # from the end of the wall
+    turned = np.pi - 2.0 * (np.arccos(1.0 / leaves) - np.arctan2(2.0, 3.0))
+    assert found.cost == pytest.approx(2.0 * np.sqrt(leaves**2 - 1.0) + turned, abs=0.01)
+
+
+@given(st.integers(0, 100_000))
+@example(9)
+@example(46)
+def test_far_from_the_origin_the_same_route_is_found(seed: int) -> None:
+    """As in UTM: what is a millionth of a millimetre there mustn't decide on a corner."""
+    rng = np.random.default_rng(seed)
+    places, radii = rng.uniform(2, 18, (10, 2)), rng.uniform(0.1, 2.0, 10)
+    ends = np.array([(0.0, 0.0), (20.0, 20.0)])
+    lengths = []
+    for origin in ((0.0, 0.0), (5e5, 5.2e6)):
+        at = places + origin
+        world = World([disc(*middle, radius) for middle, radius in zip(at, radii, strict=True)])
+        found = ExactRoute().lay(problem(world, *(ends + origin)))
+        lengths.append(found.cost if isinstance(found, Found) else np.inf)
+    assert lengths[0] == pytest.approx(lengths[1], abs=1e-6)
 
 
 def test_maps_have_no_tangents() -> None:

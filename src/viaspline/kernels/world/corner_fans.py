@@ -22,6 +22,7 @@ from viaspline.kernels.world.ring_distance import is_disc, radius_of
 # columns of a corner
 X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)
 CORNER_COLUMNS = 8
+ROUNDING = 1e-15  # of what a coordinate is, by which it may be off
 
 
 @uncounted
@@ -75,7 +76,10 @@ def _ring_corners(
         uy = edge[3] - edge[1]
         vx = after[2] - after[0]
         vy = after[3] - after[1]
-        turn = math.atan2(ux * vy - uy * vx, ux * vx + uy * vy)
+        across = ux * vy - uy * vx
+        along = ux * vx + uy * vy
+        # a line goes back at its ends, and which sign the 0 has there depends on how it lies
+        turn = math.pi if across == 0.0 and along < 0.0 else math.atan2(across, along)
         if turn > 1e-12:  # free space lies to the right of every edge: convex corners turn left
             outward = math.atan2(-ux, uy)
             count = _fan(corners, count, edge[2], edge[3], rho, outward, turn, step)
@@ -117,4 +121,5 @@ def supports(corners: Floats, k: int, dx: float, dy: float) -> bool:
     along = dx * nx + dy * ny
     across = dx * ny - dy * nx
     # the corner's edges lie behind its tangent by an angle whose tangent is SLOPE, to either side
-    return abs(along) <= abs(across) * corners[k, SLOPE] + 1e-9 * (abs(dx) + abs(dy))
+    rounding = ROUNDING * (abs(corners[k, X]) + abs(corners[k, Y]))  # far off the origin it counts
+    return abs(along) <= abs(across) * corners[k, SLOPE] + 1e-9 * (abs(dx) + abs(dy)) + rounding
