@@ -235,3 +235,18 @@ def test_rows_without_bends_that_go_are_among_the_random_ones_and_others():
     sizes = [(random_row(seed, False), seed) for seed in range(30)]
     gone = [len(rows) - len(needed_turns(rows, False, 1.0)[0]) for rows, _ in sizes]
     assert min(gone) == 0 < max(gone)
+
+
+@pytest.mark.parametrize("closed", [False, True])
+@pytest.mark.parametrize("seed", range(20))
+def test_far_from_the_origin_turns_settle_as_they_do_near_it(seed, closed):
+    """As in UTM."""
+    rows, origin = random_row(seed, closed), np.array([5e5, 5.2e6])
+    far = rows.copy()
+    far[:, [X, Y]] += origin
+    left, _, turns, apexes, _, state, _ = needed_turns(rows, closed, 1.0)
+    its_left, _, its_turns, its_apexes, _, its_state, _ = needed_turns(far, closed, 1.0)
+    assert (state, left.tolist()) == (its_state, its_left.tolist())
+    if state == FINE:
+        assert its_turns == pytest.approx(turns, abs=1e-6)
+        assert its_apexes - origin == pytest.approx(apexes, abs=1e-6)

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.jit import uncounted
+from viaspline.kernels.jit import inner, uncounted
 from viaspline.kernels.turning.settled_lines import KEPT, SIDE, X, Y, touching_line, wrapped
 
 GUESSED_ABOUT = 2  # lines before and after one at which it failed, that are guessed again with it
@@ -18,6 +18,23 @@ GUESSED_ABOUT = 2  # lines before and after one at which it failed, that are gue
 # than the tangents make: each lies up to a quarter turn off the line between the middles [rad].
 SURE_TURN_RAD = 0.5 * math.pi
 MIDDLE_TURN_RAD = 0.75 * math.pi  # of those that are looked for between tangents
+FAR_OFF_M = 1e4  # places so far from the origin are reckoned from one that is nearer to them
+
+
+@inner
+def brought_near(bends: Floats) -> tuple[Floats, float, float]:
+    """Bends about a place that is near to them, and that place [m].
+
+    Lines settle to the last digit of a heading, and in UTM a millionth of a millimetre is the last
+    digit of a place.
+    """
+    x = FAR_OFF_M * np.floor(bends[0, X] / FAR_OFF_M + 0.5)
+    y = FAR_OFF_M * np.floor(bends[0, Y] / FAR_OFF_M + 0.5)
+    near = bends.copy()
+    for k in range(near.shape[0]):
+        near[k, X] -= x
+        near[k, Y] -= y
+    return near, x, y
 
 
 @uncounted

@@ -9,7 +9,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.turning.guessed_lines import guess_lines
+from viaspline.kernels.turning.guessed_lines import brought_near, guess_lines
 from viaspline.kernels.turning.settled_lines import LEFT_OUT, RADIUS, SIDE, WRONG_TURN_RAD
 from viaspline.kernels.turning.turn_sequence import lay_turns
 
@@ -47,6 +47,7 @@ def needed_turns(
     Returns:
         Which bends are left, (m,), and of these what ``turn_sequence`` returns.
     """
+    bends, x, y = brought_near(bends)
     left, count = np.arange(bends.shape[0]), bends.shape[0]
     lines, turns = np.zeros(count if closed else count - 1), np.zeros(count)
     circles = np.zeros((count, 3))
@@ -56,6 +57,9 @@ def needed_turns(
         tight = np.zeros(lines.size, np.bool_)
         state, has_settled = lay_turns(bends, closed, ramps, lines, turns, circles, apexes, tight)
         if state != LEFT_OUT:
+            for k in range(left.size):
+                apexes[k, 0] += x
+                apexes[k, 1] += y
             return left, lines, turns, apexes, ramps, state, np.flatnonzero(tight)
         needed = _needed(bends, closed, turns, np.flatnonzero(tight)[0])
         left, bends = left[needed], bends[needed]

@@ -13,7 +13,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel, uncounted
-from viaspline.kernels.turning.guessed_lines import guess_again, guess_lines
+from viaspline.kernels.turning.guessed_lines import brought_near, guess_again, guess_lines
 from viaspline.kernels.turning.settled_lines import (
     FINE,
     LEFT_OUT,
@@ -134,10 +134,14 @@ def turn_sequence(
         (n,) [m]; what came of it, and every line at which it failed (k,), or the bend that is
         turned at most to the wrong side, (1,).
     """
+    bends, x, y = brought_near(bends)
     count = bends.shape[0]
     lines, turns = np.zeros(count if closed else count - 1), np.zeros(count)
     circles, apexes = np.zeros((count, 3)), np.zeros((count, 2))
     ramps, tight = ramp * bends[:, RADIUS], np.zeros(lines.size, np.bool_)
     guess_lines(bends, closed, lines, turns, circles)
     state, _ = lay_turns(bends, closed, ramps, lines, turns, circles, apexes, tight)
+    for k in range(count):
+        apexes[k, 0] += x
+        apexes[k, 1] += y
     return lines, turns, apexes, ramps, state, np.flatnonzero(tight)
