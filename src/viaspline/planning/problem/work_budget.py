@@ -21,6 +21,9 @@ ROUTE_S, LATTICE_S, GUIDE_S, GUIDE_OBSTACLE_S = 5e-4, 4e-3, 1e-3, 2e-6
 """Of a route between two places; of each lattice and each guide through one that it takes, and of
 pulling that taut for each obstacle of the world [s]."""
 
+FINE_ROUTE_OBSTACLES_S = 6e-5
+"""Of a search of fine tangents, for each pair of obstacles that is met [s]."""
+
 CONFLICTS_S, CONFLICTS_SPAN_S, CONFLICTS_BODY_SPAN_S = 1e-4, 1e-6, 4e-6
 """Of looking for conflicts: in all, for each span, and for each span if a polygon drives [s],"""
 

@@ -22,18 +22,20 @@ class ExactRoute:
     """The shortest route in the tangent graph of the obstacles that it meets.
 
     The search is among those alone, so it is quick where they are few and slow where they are
-    many. Round corners are circumscribed, a millimetre too far out: where it finds nothing, that
-    is no proof that there is nothing.
+    many. Round corners are circumscribed, a millimetre or less too far out: where it finds nothing,
+    that is no proof that there is nothing.
 
     Attributes:
         more_than: Obstacles met up to which it is left to the others.
         max_met: Obstacles met beyond which it gives up.
         least_gain: Part of the bound by which a route has to be shorter.
+        level: How close corners are to what they are of: of ``TURN_MARGINS_M``.
     """
 
     more_than: int = -1
     max_met: int = 16
     least_gain: float = 0.0
+    level: int = 0
 
     def lay(self, problem: RouteProblem, bound: float = math.inf) -> Found[TautPath] | GaveUp:
         """See ``Method``."""
@@ -44,15 +46,15 @@ class ExactRoute:
         start, goal = (np.ascontiguousarray(end[:2]) for end in (problem.start, problem.goal))
         space = problem.space
         corners = shortest_route(
-            space.world.packed, start, goal, space.required + TURN_MARGINS_M[0], space.floor,
-            TURN_STEPS_RAD[0], problem.barriers, problem.active, self.max_met,
+            space.world.packed, start, goal, space.required + TURN_MARGINS_M[self.level],
+            space.floor, TURN_STEPS_RAD[self.level], problem.barriers, problem.active, self.max_met,
         )  # fmt: skip
         if not len(corners):
             return self._gave_up(problem)
         taut_path = TautPath.through(corners)
         if not taut_path.length <= (1.0 - self.least_gain) * bound:
             return GaveUp((f"a route of {taut_path.length:.3f} m, which is not shorter",))
-        is_settled = len(taut_path.bends) > 0 and _is_surely_shortest(problem)
+        is_settled = len(taut_path.bends) > 0 and _is_surely_shortest(problem, self.level)
         return Found(taut_path, taut_path.length, is_settled)
 
     def _gave_up(self, problem: RouteProblem) -> GaveUp:
@@ -61,7 +63,7 @@ class ExactRoute:
         return GaveUp((f"the tangents of {met} obstacles{limit}",))
 
 
-def _is_surely_shortest(problem: RouteProblem) -> bool:
+def _is_surely_shortest(problem: RouteProblem, level: int) -> bool:
     """Whether circumscribed corners close no gap that the arcs themselves leave open."""
     space, active = problem.space, problem.active
     if not active.any():
@@ -70,6 +72,6 @@ def _is_surely_shortest(problem: RouteProblem) -> bool:
         return False
     met = (space.world.obstacles[i].ring for i in np.flatnonzero(active))
     radius = max((ring.radius for ring in met if ring is not None), default=0.0)
-    excess = (radius + space.required) * (1.0 / np.cos(0.25 * TURN_STEPS_RAD[0]) - 1.0)
-    low, high = 2.0 * space.floor, 2.0 * (space.required + TURN_MARGINS_M[0] + excess)
+    excess = (radius + space.required) * (1.0 / np.cos(0.25 * TURN_STEPS_RAD[level]) - 1.0)
+    low, high = 2.0 * space.floor, 2.0 * (space.required + TURN_MARGINS_M[level] + excess)
     return not has_narrow_gap(space.world.packed, active, low, high)

@@ -11,6 +11,7 @@ import numpy as np
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.planning.problem.method import Method, Outcome, first_settled
 from viaspline.planning.routing.exact_route import ExactRoute
+from viaspline.planning.routing.fine_route import FineRoute
 from viaspline.planning.routing.lattice_route import LatticeRoute
 from viaspline.planning.routing.route_problem import RouteProblem, SearchSpace, for_nothing
 from viaspline.planning.routing.taut_path import TautPath
@@ -26,11 +27,12 @@ ROUTE_METHODS: tuple[RouteMethod, ...] = (
     ExactRoute(max_met=MAX_EXACT_OBSTACLES),
     LatticeRoute(),
     ExactRoute(MAX_EXACT_OBSTACLES, MAX_EXACT_AGAIN, LEAST_GAIN_AGAIN),
+    FineRoute(max_met=MAX_EXACT_AGAIN),
 )
 AMONG_MADE: tuple[RouteMethod, ...] = (
     ROUTE_METHODS[0],
     LatticeRoute(lattices=SearchSpace.made_lattices),
-    ROUTE_METHODS[2],
+    *ROUTE_METHODS[2:],
 )
 
 
