@@ -9,6 +9,7 @@ import pytest
 import viaspline as vs
 from viaspline.maps.grid import Grid
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.planning.routing.lattices import MAX_ON_MAP_LINES
 from viaspline.planning.routing.route_problem import NO_BARRIERS
 from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.taut_path import TautPath
@@ -48,6 +49,20 @@ def test_a_fence_on_a_map_is_kept_to() -> None:
     assert found is not None
     assert found.length > 12.0
     assert taut_path(World([room], fences=[fence]), (1.5, 8), (4.5, 8)) is None
+
+
+@pytest.mark.parametrize("side", [60.0, 3_000.0, 20_000.0])
+def test_wide_bounds_about_a_small_map_take_no_more_cells_than_fit_in_memory(side: float) -> None:
+    """The map's cells of 5 cm aren't those of what lies about it."""
+    middle = 0.5 * side
+    room = Obstacle(grid=Grid(np.ones((20, 20), bool), 0.05, (middle, middle, 0.0)))
+    ends = np.array([(0.1 * side, 0.1 * side), (0.9 * side, 0.9 * side)])
+    router = Router(World([room], bounds=(0.0, 0.0, side, side)), 0.5, ends)
+    sizes = [lattice.cells.size for lattice in router.ever_finer()]
+    assert max(sizes) <= MAX_ON_MAP_LINES
+    found = router.find(*ends, NO_BARRIERS, np.zeros(1, np.bool_)).value
+    assert found is not None
+    assert found.length == pytest.approx(np.hypot(*(ends[1] - ends[0])), rel=1e-3)
 
 
 def test_a_way_to_where_one_is_has_no_length() -> None:

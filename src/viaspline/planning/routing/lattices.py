@@ -33,6 +33,9 @@ OPEN_CELL_RADII, PROOF_CELL_RADII = 0.5, 0.25  # side of open cells, in required
 CELLS_WANTED, CELLS_QUICK = 2**16, 2**20  # of the lattice that is tried first without maps
 CELLS_SHORTEST = 2**22  # the most of it where it is the length that counts
 MAX_CELLS = 2**25  # of any lattice
+# Of a lattice on a map's lines, and if that is more, in cells of the maps: beyond, what lies about
+# a small map has more of its cells than fit in memory, and the lattice lies across them.
+MAX_ON_MAP_LINES, MAX_OF_MAP = 4 * MAX_CELLS, 2.0
 MAX_PARTS = 4  # of a map's cell aside, where other things stand beside the map
 MISALIGNMENT = 1e-9  # what a map may lie off the lattice, in cells
 NO_CELLS: Bytes = np.empty((0, 0), np.uint8)
@@ -76,13 +79,21 @@ def _sides(world: World, required: float, box: Box, most_cells: int) -> Iterator
     wanted = [max(open_side, finest), max(last_side, finest)]
     if math.isinf(resolution):
         wanted.insert(0, max(min(open_side, first), quickest))
+    most = max(MAX_ON_MAP_LINES, MAX_OF_MAP * _cells_of_maps(world, resolution))
+    least = math.sqrt(area / most)
     before = math.inf
     for side in wanted:
         if math.isfinite(resolution):  # a whole number of cells in one of the map's
-            side = resolution / max(1.0, math.ceil(resolution / side - 1e-9))
+            on_map = resolution / max(1.0, math.ceil(resolution / side - 1e-9))
+            side = on_map if on_map >= least else side
         if side < before:
             yield side
             before = side
+
+
+def _cells_of_maps(world: World, resolution: float) -> float:
+    """How many cells of this side [m] the maps cover."""
+    return sum(grid.blocked.size * (grid.resolution / resolution) ** 2 for grid in _grids(world))
 
 
 def _open_cells(world: World, required: float, floor: float, box: Box, side: float) -> Lattice:
