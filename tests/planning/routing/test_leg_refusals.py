@@ -84,6 +84,27 @@ def test_the_gap_told_is_as_wide_as_it_is_and_remedies_serve(
     assert all(plan.certificate.holds for plan in followed(data, refused))
 
 
+@settings(max_examples=12)
+@given(st.floats(100.0, 600.0), st.floats(0.6, 0.97), st.floats(1.0, 300.0))
+@example(418.48, 0.7, 5.0)
+def test_a_clearance_of_hundreds_of_metres_leaves_a_curve_room_as_well(
+    required: float, share: float, radius: float
+) -> None:
+    """A millimetre is little there: a spline touches what it passes."""
+    end = 20e3 - 2.0 * share * required - radius
+    data = {
+        "world": {
+            "bounds": (0.0, 0.0, 20e3, 20e3),
+            "known": [{"capsule": {"from": (0.0, 8e3), "to": (end, 9e3), "radius": radius}}],
+        },
+        "robot": {"radius_m": 0.0, "clearance_m": required},
+        "route": {"start": {"at": (15e3, 3e3)}, "goal": {"at": (16e3, 16e3)}},
+    }
+    refused = refusal_of(data)
+    assert refused is not None
+    assert all(plan.certificate.holds for plan in followed(data, refused))
+
+
 def test_nothing_is_said_to_be_shut_off_where_a_narrow_gap_is() -> None:
     refused = refusal_of(asked(wall(4.0, (3.0, 3.001)), (2.0, 4.0), (10.0, 4.0)))
     assert refused is not None

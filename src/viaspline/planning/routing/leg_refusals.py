@@ -29,6 +29,7 @@ from viaspline.world.world import World
 
 CURVE_SLACK_M = 2e-4  # beyond what is required, in which a curve may find no way through a gap
 CURVE_ROOM_M = 1.1e-3  # in which it finds one: it turns a millimetre beyond what is required
+CURVE_ROOM = 3e-4  # the same as a part of what is required, where that is more
 NEAR_RADII = 2.0  # from a via point to the mouth of its pocket, in required distances
 
 
@@ -161,7 +162,8 @@ def _just_enough(
 
 def _slimmer(room: float, requirements: Requirements) -> tuple[tuple[str, ...], tuple[Change, ...]]:
     """What would make a robot pass where there is so much room [m], in words and as changes."""
-    most = min(room, requirements.required) - CURVE_ROOM_M
+    most = min(room, requirements.required)
+    most -= max(CURVE_ROOM_M, CURVE_ROOM * most)
     clearance = _rounded_down(most - requirements.radius - requirements.tracking_error)
     if clearance >= 0.0:
         words = f"set robot.clearance_m to at most {clearance:.3f}"
