@@ -9,7 +9,7 @@ from numba.core import errors, ir
 from numba.core.compiler import Flags
 
 from viaspline.kernels import jit
-from viaspline.kernels.sooner_compiled import _variables_in
+from viaspline.kernels.sooner_compiled import _variables_in, is_a_part
 
 compiled = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT") == "1", reason="nothing is compiled with the JIT off"
@@ -70,6 +70,32 @@ def test_the_variables_of_instructions_are_those_that_numba_finds() -> None:
         assert one.list_vars() == _variables_in(one, one.__dict__)
     names = [{variable.name for variable in one.list_vars()} for one in made]
     assert names == [{"x", "y", "z"}, {"y"}, {"y"}, {"x", "y", "z"}, set()]
+
+
+@compiled
+def test_of_what_only_kernels_call_there_is_no_machine_code_but_in_the_kernels() -> None:
+    def part(x: float) -> float:
+        if x < 0.0:
+            raise ValueError("too little")
+        return 3.0 * x
+
+    def whole(x: float) -> float:
+        return tripled(x) + 1.0
+
+    part.__module__ = whole.__module__ = "viaspline.kernels.example"
+    tripled, called = jit.inner(part), jit.kernel(whole)
+    assert called(2.0) == 7.0
+    with pytest.raises(ValueError, match="too little"):
+        called(-1.0)
+    (inside,), (outside,) = (one.overloads.values() for one in (tripled, called))  # type: ignore[attr-defined]
+    assert is_a_part(inside.library._final_module)
+    assert not is_a_part(outside.library._final_module)
+    assert outside.library.serialize_using_object_code()[1] == "object"
+    kept = inside.library.serialize_using_object_code()
+    assert kept[1] == "bitcode"
+    read = inside.library.codegen.unserialize_library(kept)
+    name = inside.fndesc.llvm_func_name
+    assert name in {one.name for one in read._get_module_for_linking().functions}
 
 
 def test_numbas_own_functions_are_compiled_in_kernels_as_ever(tmp_path: Path) -> None:
