@@ -1,10 +1,25 @@
 """For all tests and all examples in the sources."""
 
+import gc
 import os
 from collections.abc import Iterator
 from types import SimpleNamespace
 
 import pytest
+
+# Before numpy is loaded: threads of its linear algebra wait for each other in loops, on cores that
+# other tests have. With two of them a fit of a drive took four times as much of the processor.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """All that is imported and collected stays: nobody looks through it for garbage meanwhile."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

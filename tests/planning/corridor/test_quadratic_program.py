@@ -53,7 +53,7 @@ def test_with_rows_and_equalities_it_is_scipys_slsqp(seed: int) -> None:
             {"type": "ineq", "fun": lambda x: rows @ x - floors},
             {"type": "eq", "fun": lambda x: equal @ x - values},
         ],
-        method="SLSQP", options={"ftol": 1e-14, "maxiter": 500},
+        method="SLSQP", options={"ftol": 1e-12, "maxiter": 500},
     )  # fmt: skip
     assert right.success
     np.testing.assert_allclose(found, right.x, atol=2e-5)
