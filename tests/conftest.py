@@ -2,6 +2,7 @@
 
 import copy
 import gc
+import math
 import os
 import warnings
 from collections.abc import Callable, Sequence
@@ -32,6 +33,22 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 settings.load_profile("viaspline")
+
+SHARE = 0.5
+"""Of the examples of a property, where slow tests are left out."""
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Try fewer examples of each property than ``check.py --all`` does; those with a name, all."""
+    if "not slow" not in config.option.markexpr:
+        return
+    tests = {id(test): test for item in items if (test := getattr(item, "obj", None))}
+    for test in tests.values():
+        own: settings | None = getattr(test, "_hypothesis_internal_use_settings", None)
+        if own is not None:
+            fewer = math.ceil(SHARE * own.max_examples)
+            test._hypothesis_internal_use_settings = settings(own, max_examples=fewer)
+
 
 LOADED_TO_COLLECT = pytest.StashKey[frozenset[LoadedKernel]]()
 
