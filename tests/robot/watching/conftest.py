@@ -32,6 +32,8 @@ class Cart:
     time: float = 0.0
     rate: float = 0.0
     given: list[tuple[float, float, float]] = field(default_factory=list)
+    """What was commanded, by time, and isn't followed yet."""
+    followed: list[float] = field(default_factory=lambda: [0.0, 0.0])
     driven: list[tuple[float, float, float, float]] = field(default_factory=list)
 
     def told(self, command: Command, time: float) -> None:
@@ -40,10 +42,9 @@ class Cart:
 
     def moved_until(self, time: float) -> None:
         while self.time < time - 1e-9:
-            speed, rate = 0.0, 0.0
-            for at, along, turn in self.given:
-                if at + self.delay <= self.time + 1e-9:
-                    speed, rate = along, turn
+            while self.given and self.given[0][0] + self.delay <= self.time + 1e-9:
+                _, *self.followed = self.given.pop(0)
+            speed, rate = self.followed
             step = min(FINE_S, time - self.time)
             follow = 1.0 if self.lag == 0.0 else 1.0 - math.exp(-step / self.lag)
             along = self.state.speed + (self.share(self.time) * speed - self.state.speed) * follow
