@@ -29,7 +29,9 @@ def odd_missions() -> Any:
     return module
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize(
+    "seed", [*range(6), *(pytest.param(k, marks=pytest.mark.slow) for k in range(6, 12))]
+)
 def test_a_run_with_odd_values_ends_with_an_answer(
     odd_missions: Any, tmp_path: Path, seed: int
 ) -> None:

@@ -144,7 +144,11 @@ def placed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return files
 
 
-@pytest.mark.parametrize("source", ["yaml", "plan", "waypoints", "studio", "flight"])
+@pytest.mark.parametrize(
+    "source",
+    ["yaml", "plan", "flight",
+     *(pytest.param(one, marks=pytest.mark.slow) for one in ("waypoints", "studio"))],
+)  # fmt: skip
 def test_a_saved_plan_is_exported_where_on_earth_its_mission_lies(
     source: str, placed: dict[str, Path], tmp_path: Path
 ) -> None:

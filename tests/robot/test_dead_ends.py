@@ -176,7 +176,7 @@ def drive_to_closed_door(jerk: float | None, sight: float, aside: float) -> Run:
         return simulate(mission)
 
 
-@pytest.mark.parametrize("jerk", [None, 2.0])
+@pytest.mark.parametrize("jerk", [pytest.param(None, marks=pytest.mark.slow), 2.0])
 def test_a_car_before_a_closed_door_says_that_it_finds_no_way_on(jerk: float | None) -> None:
     """With a limit of the jerk it had crept on by half a millimetre after every search."""
     run = drive_to_closed_door(jerk, 3.0, 1.16)

@@ -224,7 +224,9 @@ def duration(squares: NDArray[np.float64], line: NDArray[np.float64]) -> float:
     return float((2 * np.diff(line) / np.maximum(v[1:] + v[:-1], 1e-9)).sum())
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize(
+    "seed", [0, 1, 2, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (3, 4, 5))]
+)
 @pytest.mark.parametrize("name", ["axes", "yaw"])
 def test_it_is_optimal_to_the_discretisation(name: str, seed: int) -> None:
     # the same half-planes for a programme that knows nothing of passes: minimal time is convex

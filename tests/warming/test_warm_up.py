@@ -31,7 +31,7 @@ PLAIN, LIDAR = MissionKind(), MissionKind(("lidar",))
     [
         "untold",
         pytest.param("lidar+ackermann+footprint+turning", marks=pytest.mark.slow),
-        "differential",
+        pytest.param("differential", marks=pytest.mark.slow),
     ],
 )
 def test_no_step_compiles_loads_or_imports_anything(kind: str) -> None:

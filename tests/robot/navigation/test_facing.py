@@ -56,7 +56,7 @@ def test_a_corner_of_its_path_takes_as_long_as_planned(
     assert run.duration >= run.plan.trajectory.duration - 1e-6
 
 
-@pytest.mark.parametrize("safety", ["none", "passive"])
+@pytest.mark.parametrize("safety", [pytest.param("none", marks=pytest.mark.slow), "passive"])
 @pytest.mark.parametrize("sensor", SENSORS)
 def test_the_first_turn_of_a_path_that_is_laid_from_rest_takes_its_time(
     sensor: dict[str, Any], safety: str

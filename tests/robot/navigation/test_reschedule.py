@@ -196,7 +196,7 @@ LIDAR, RANGE, JERKY = {"lidar": {"range_m": 6}}, {"range_m": 6}, {"max_jerk_mps3
         (LIDAR, 0.0, 0.0, {}),
         (LIDAR, 0.002, 15.0, {}),
         (LIDAR, 0.1, 2.0, {}),
-        (LIDAR, 0.002, 0.0, JERKY),
+        pytest.param(LIDAR, 0.002, 0.0, JERKY, marks=pytest.mark.slow),
         (RANGE, 0.002, 0.0, JERKY),
         (RANGE, 0.1, 2.0, {}),
     ],

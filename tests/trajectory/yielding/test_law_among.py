@@ -85,7 +85,9 @@ def assert_kept(law: Trajectory, limits: Limits, static: Trajectory) -> None:
     assert law.speeds[-1] == 0.0
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize(
+    "seed", [*range(20), *(pytest.param(k, marks=pytest.mark.slow) for k in range(20, 40))]
+)
 def test_nothing_comes_too_near_between_samples_of_half_a_millisecond(seed: int) -> None:
     rng = np.random.default_rng(seed)
     path = line() if seed % 3 == 0 else bent(seed)
