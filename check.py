@@ -23,6 +23,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
 HOME = ROOT / ".venv"
+MADE_OF = HOME / "made-of"  # what it was made of: it is made again where that is another
 BIN = HOME / ("Scripts" if os.name == "nt" else "bin")
 CODE = (
     "src",
@@ -64,6 +65,16 @@ def run_beside(beside: Path, *commands: tuple[str | Path, ...]) -> None:
         sys.exit(other.returncode)
 
 
+def asked_for() -> str:
+    """What an environment is made of."""
+    return sys.version + (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+
+
+def is_set_up() -> bool:
+    """Whether there is an environment that was made of what is asked for today."""
+    return MADE_OF.exists() and MADE_OF.read_text(encoding="utf-8") == asked_for()
+
+
 def set_up() -> None:
     """A virtual environment with the package, editable, and the developer's tools."""
     if not (BIN / "pip").exists() and not (BIN / "pip.exe").exists():
@@ -78,6 +89,7 @@ def set_up() -> None:
     pip = (python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile")
     if not installed_by_uv(python, pip):
         run(*pip, "-e", ".[dev]")
+    MADE_OF.write_text(asked_for(), encoding="utf-8")
 
 
 def installed_by_uv(python: Path, pip: tuple[str | Path, ...]) -> bool:
@@ -127,7 +139,7 @@ def main() -> None:
         sys.exit(f"viaspline needs Python 3.11 or newer; this is {sys.version.split()[0]}")
     # Without it every process that a test starts would compile all the sources anew.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    if "--quick" not in sys.argv or not BIN.exists():
+    if "--set-up" in sys.argv or not (is_set_up() or ("--quick" in sys.argv and BIN.exists())):
         set_up()
     if "--set-up" in sys.argv:
         return
@@ -146,10 +158,11 @@ def main() -> None:
         mine = tests_of(changed())
         run(BIN / "python", "-m", "pytest", "-x", "-m", "not slow", *mine)
     else:
-        # Collected once, the tests' bytecode is there for the three processes that run them.
+        # Collected once, the tests' bytecode is there for the processes that run them. They are
+        # four: some wait for a browser, or for a kernel that another one compiles.
         pytest = (BIN / "python", "-m", "pytest")
         chosen = () if "--all" in sys.argv else ("-m", "not slow")
-        collect, tests = ("--collect-only", "-qq"), ("-n", "3", "--dist", "worksteal")
+        collect, tests = ("--collect-only", "-qq"), ("-n", "4", "--dist", "worksteal")
         run_beside(BIN / "mypy", (*pytest, *collect), (*pytest, *chosen, *tests))
 
 
