@@ -22,20 +22,49 @@ def pytest_collection() -> Iterator[None]:
         gc.enable()
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Where several processes share the tests, those that take long aren't left to the end.
+KERNELS_APART = ("tests/kernels/space/", "tests/kernels/fleet/", "tests/kernels/turning/")
+"""Tests of kernels that have little in common, nor with those that the studio needs for a plan."""
 
-    The others would have nothing to do by then. Processes take over what is last in another one's
-    queue, so that the first one goes through these.
+
+@pytest.hookimpl(trylast=True)  # those that are left out are gone by then
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Where several processes share the tests, each begins with others, and none takes long late.
+
+    At first kernels are compiled, and who needs one that another process compiles has to wait for
+    it. In the end the others would have nothing to do while one goes on with what takes long.
     """
     if "PYTEST_XDIST_WORKER" in os.environ:
         items.sort(key=_sooner)
+        items[:] = _apart(items, int(os.environ["PYTEST_XDIST_WORKER_COUNT"]))
 
 
 def _sooner(item: pytest.Item) -> int:
     if item.get_closest_marker("slow"):
         return 0
-    return 1 if "browser" in getattr(item, "fixturenames", ()) else 2
+    return 1 if _is_in_browser(item) else 2
+
+
+def _apart(items: list[pytest.Item], count: int) -> list[pytest.Item]:
+    """Tests so that their equal parts, of which each process gets one, begin with other kernels.
+
+    Processes take over what is last in another one's part, so that each goes through its first.
+    """
+    first: list[list[pytest.Item]] = [[] for _ in range(count)]
+    rest: list[pytest.Item] = []
+    for item in items:
+        of = [k for k, room in enumerate(KERNELS_APART, 1) if item.nodeid.startswith(room)]
+        part = 0 if _is_in_browser(item) else of[0] % count if of else None
+        (rest if part is None else first[part]).append(item)
+    made: list[pytest.Item] = []
+    for k, begun in enumerate(first):
+        more = max((len(items) - len(made)) // (count - k) - len(begun), 0)
+        made += begun + rest[:more]
+        del rest[:more]
+    return made + rest
+
+
+def _is_in_browser(item: pytest.Item) -> bool:
+    return "browser" in getattr(item, "fixturenames", ())
 
 
 @pytest.fixture(scope="session", autouse=True)
