@@ -69,7 +69,7 @@ def cusps_of(path: PiecewiseCubic) -> Floats:
         >>> cusps_of(PiecewiseCubic([[[0, 0], [4, 0], [4, 0], [0, 0]]])).tolist()
         [0.5]
     """
-    return cusps(np.ascontiguousarray(path.spans[:, :, :2]))
+    return cusps(np.array(path.spans[:, :, :2], order="C"))  # numba compiles for one kind
 
 
 def seam_corner(path: PiecewiseCubic) -> float:

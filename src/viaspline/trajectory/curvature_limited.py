@@ -77,7 +77,7 @@ def stretches_of(
         joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
         first = max(int(np.searchsorted(joints, start, side="right")) - 1, 0)
         arcs, arc_caps, corners = bend_caps(
-            np.ascontiguousarray(path.spans[first:]), joints[first:],
+            np.array(path.spans[first:]), joints[first:],  # writable: numba compiles for one kind
             np.inf if lateral is None else lateral, np.inf if turning is None else turning,
             max(limits.max_accel, limits.brake), square,
             CAP_RATIO if turning is None else np.sqrt(CAP_RATIO),

@@ -107,7 +107,8 @@ class LimitedCubicPath:
         """The path in cells that are fine enough for the limits."""
         cell_size = cell_size_for(self.limits, self.path.spans.shape[2], stage, self.grid)
         first, begin = self._ahead(stage.start)
-        spans = turned(np.ascontiguousarray(self.path.spans[first:]), self.limits.axis_heading)
+        ahead = np.array(self.path.spans[first:])  # writable: numba compiles for one kind
+        spans = turned(ahead, self.limits.axis_heading)
         return cubic_cells(spans, begin, self.length, cell_size), cell_size
 
     def profile(self, stage: Stage) -> Profile:

@@ -67,7 +67,6 @@ def slow_parts(spans: Floats, zones: Sequence[SpeedZone]) -> list[tuple[float, f
         raise GeometryError("a path of one dimension has no speed zones")
     areas = [zone.corners for zone in zones]
     ends = np.cumsum([len(area) for area in areas])
-    found = zone_pieces(
-        np.ascontiguousarray(spans), np.concatenate(areas), ends, ZONE_EDGE_M, MAX_ZONE_HALVINGS
-    )
+    writable = np.array(spans, order="C")  # numba compiles for one kind
+    found = zone_pieces(writable, np.concatenate(areas), ends, ZONE_EDGE_M, MAX_ZONE_HALVINGS)
     return [(low, high, float(zones[int(k)].max_speed_mps)) for low, high, k in found.tolist()]

@@ -19,9 +19,10 @@ def driving_time(spans: Floats, pace: Pace, rests: Flags) -> float:
         pace: How fast it may be driven.
         rests: Whether the robot stands still at each joint, (m + 1,).
     """
+    writable = spans if spans.flags.writeable else spans.copy()  # numba compiles for one kind
     return float(
         path_time(
-            spans, rests, pace.speed, pace.accel, pace.brake, pace.lateral, pace.yaw_rate
+            writable, rests, pace.speed, pace.accel, pace.brake, pace.lateral, pace.yaw_rate
         )
     )  # fmt: skip
 
