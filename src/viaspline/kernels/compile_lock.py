@@ -18,7 +18,7 @@ try:
 except ImportError:  # not a Unix: each compiles for itself
     fcntl = None  # type: ignore[assignment]
 
-MAX_WAIT_S = 120.0  # no kernel takes that long: who holds the lock then has failed at it [s]
+MAX_WAIT_S = 400.0  # no kernel takes that long: who holds the lock then has failed at it [s]
 PAUSE_S = 0.02  # between two looks [s]
 
 
