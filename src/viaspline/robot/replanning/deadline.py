@@ -108,6 +108,8 @@ def gone_on(
             begin_with, again, doubt = FIRST_STAGE, context.progress.time + pause, None
         so_far = SearchSoFar(STANDING_WORK_S, 0.0, world, budget.finished)
         free, leave = context.obstruction.free_until, _settled_leave(context, again)
+        if leave is not None and leave != context.settled_leave and begin_with < NO_STAGE:
+            begin_with = (begin_with[0], 0)  # from there nothing of this mode was tried yet
         return PendingSearch(
             since, obstacles, names, begin_with, so_far, again, free, doubt, leave,
             brakes=must_brake(context),

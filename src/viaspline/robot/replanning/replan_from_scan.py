@@ -32,13 +32,13 @@ from viaspline.robot.replanning.recovery import restore_clearance, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.robot.replanning.retreat import retreat
-from viaspline.robot.replanning.sight_limit import within_sight
-from viaspline.robot.replanning.standing_search import (
+from viaspline.robot.replanning.search_as_begun import (
     OUTDATED,
     as_first_seen,
     begun_anew,
     holds_now,
 )
+from viaspline.robot.replanning.sight_limit import within_sight
 from viaspline.robot.replanning.transitions import braked, keep_searching, stop_for_good, take_over
 from viaspline.world.world import World
 

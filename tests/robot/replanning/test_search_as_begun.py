@@ -21,7 +21,7 @@ from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.replan_search import search
-from viaspline.robot.replanning.standing_search import as_first_seen, holds_now
+from viaspline.robot.replanning.search_as_begun import as_first_seen, holds_now
 from viaspline.robot.simulator import simulate
 from viaspline.world.world import World
 

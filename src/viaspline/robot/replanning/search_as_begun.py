@@ -1,10 +1,11 @@
-"""A robot that stands looks for a way on through what it saw when it began to look.
+"""A search for a way on goes on through what the robot saw when it began.
 
-With noise a lidar shows the same walls a little elsewhere in every scan. A search that began anew
-with each of them would never come farther than it does in a step. So it goes on in the world in
-which it began, and what it has found is looked at in the world as it is by then.
+Every scan of a lidar shows more of the same walls, or with noise the same a little elsewhere. A
+search that began anew with each of them would never come farther than it does in a step. So it goes
+on in the world in which it began, from a place that stays the same, and what it has found is looked
+at in the world as it is by then.
 
-Tested through ``robot/replanning/test_replan_from_scan``.
+Tested through ``robot/replanning/test_search_as_begun``.
 """
 
 from __future__ import annotations
@@ -23,19 +24,22 @@ OUTDATED: Final = ReplanResult(None, "what was found isn't clear any more", begi
 
 
 def as_first_seen(context: ReplanContext) -> ReplanContext:
-    """A robot that stands and looks on, with what it knew when it began; any other as it is.
+    """A robot whose search goes on from one place, with what it knew when it began; others as are.
+
+    That is where it stands, or where it will leave its path if it never turns on the spot. What it
+    has to stop for under way is what it sees now.
 
     Args:
         context: The robot, with what is in its way.
     """
     pending = context.schedule.pending
-    if pending is None or context.speed > 0.0:
+    if pending is None or (context.speed > 0.0 and context.settled_leave is None):
         return context
     world = pending.so_far.world
-    knowledge = replace(context.knowledge, world=world)
-    return replace(
-        context, knowledge=knowledge, obstruction=replace(context.obstruction, world=world)
-    )
+    begun = replace(context, knowledge=replace(context.knowledge, world=world))
+    if context.speed > 0.0:
+        return begun
+    return replace(begun, obstruction=replace(context.obstruction, world=world))
 
 
 def holds_now(context: ReplanContext, candidate: PathCandidate) -> bool:
@@ -45,8 +49,8 @@ def holds_now(context: ReplanContext, candidate: PathCandidate) -> bool:
         context: The robot, with what it knows now.
         candidate: The path.
     """
-    pending, world = context.schedule.pending, context.knowledge.world
-    if pending is None or context.speed > 0.0 or pending.so_far.world is world:
+    world = context.knowledge.world
+    if as_first_seen(context).knowledge.world is world:
         return True
     schedule = replace(context.schedule, path=candidate.solution.path, reduced=candidate.reduced)
     now = ReplanContext.of(context.task, context.progress, context.knowledge, schedule)
