@@ -33,7 +33,8 @@ def gentler_path(problem: DrivenProblem, laid: SplinePath) -> SplinePath | None:
 
     That is for a path that is chosen by time. Lines between via points that it keeps to stay as
     they are, and so do headings that are given, and those at ends where a body has no room for
-    another. No turn becomes sharper that the robot has to slow down for, unless that is sooner.
+    another. No turn becomes sharper that the robot has to slow down for, unless that is sooner, nor
+    sharper than the robot itself.
 
     Args:
         problem: What is to be driven.
@@ -123,7 +124,8 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
 
     now = time(run.laid.spans, run.laid.joints)
     price = RunPrice(time, now, before, now / (1.0 + GENTLE_SHARE) if least is None else least)
-    fast = 1.0 / pace.widest_radius if pace.widest_radius > 0.0 else 0.0
+    least_radius = max(pace.widest_radius, (1.0 + SHARPER) * needs.outer_radius)
+    fast = 1.0 / least_radius if pace.widest_radius > 0.0 else 0.0
     for bent in gentle_strips(run, problem.world, strip_body(needs), price):
         peak = bending(bent.spans)[1]
         is_sharper = peak > (1.0 + SHARPER) * max(sharpest, fast)
