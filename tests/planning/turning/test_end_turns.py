@@ -19,7 +19,7 @@ from viaspline.planning.turning.turn_path import with_sides
 from viaspline.planning.turning.wide_turns import WideTurns
 
 PACE = Pace(speed=2.0, accel=1.0, brake=1.0, lateral=0.5)
-TURNS = WideTurns(PACE, least=0.5, sharpest=0.5, roomy=0.5)
+TURNS = WideTurns(PACE, least=0.5, sharpest=0.5, roomy=0.5, own=0.5)
 NEEDS = Requirements(radius=0.5, clearance=0.5)
 
 

@@ -208,7 +208,8 @@ class TurningProblem(PathProblem):
     def wide_turns(self, rho: float) -> WideTurns:
         """The turns of a good driver, of at least a radius [m]."""
         pace = self.requirements.objective.pace
-        return WideTurns(pace, rho, self.sharpest, self.roomy)
+        own = OVERSHOOT * self.requirements.outer_radius
+        return WideTurns(pace, rho, self.sharpest, self.roomy, own)
 
     @property
     def roomy(self) -> float:

@@ -20,6 +20,7 @@ from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import TURN_WISHES_S, turn_path_s
+from viaspline.planning.turning.affordable_room import affordable_radii
 from viaspline.planning.turning.bend_row import HEADING, KEPT, RADIUS, Bends
 from viaspline.planning.turning.joined_bends import (
     TurnWishes,
@@ -60,12 +61,14 @@ class WideTurns:
         least: The least radius of turns that may swing out [m].
         sharpest: The least radius of those that may not [m].
         roomy: What turns have where there is room, even if sharper ones were as fast [m].
+        own: The radius of turns that are as sharp as the robot itself [m].
     """
 
     pace: Pace
     least: float
     sharpest: float
     roomy: float
+    own: float
 
     def pushed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
         """The least turns pushed clear, then as wide as fits round what they were pushed from.
@@ -179,6 +182,9 @@ class WideTurns:
         wide = np.minimum(wide, shares / per)
         ramps = np.maximum(lengths - kept * angles, 0.0)  # beside an arc round what is kept
         wide = np.where(gentle < kept * angles, ramps, wide)
+        spent = GENTLE_SHARE * float(wishes.gaps.sum())
+        soonest = np.maximum(wishes.fast, max(min(self.pace.widest_radius, self.roomy), self.own))
+        radii[rows] = np.minimum(radii[rows], affordable_radii(angles, radii[rows], soonest, spent))
         radii[rows] = np.maximum(radii[rows], wide)
         given = np.isfinite(bends.rows[rows, HEADING])
         swing = np.where(given, np.minimum(angles, 1.0), swing_share(angles))
