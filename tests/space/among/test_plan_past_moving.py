@@ -138,6 +138,25 @@ def test_the_goal_is_taken_when_it_stays_free_for_as_long_as_is_asked() -> None:
     assert np.hypot(off[:, 0], off[:, 1]).min() >= 1.0 + RADIUS + CLEARANCE - 1e-6
 
 
+@pytest.mark.parametrize("others", [[], [ball("kite", 1.0, CROSSING)]])
+def test_the_goal_is_taken_when_it_stays_free_for_the_dwell_there(
+    others: list[dict[str, Any]],
+) -> None:
+    frames = [[0.0, 40.0, 40.0, 10.0], [25.0, 40.0, 12.0, 10.0], [31.0, 40.0, -12.0, 10.0]]
+    goal = {"at": [40, 0, 10], "dwell_s": 16}
+    plan = planned(ball("guest", 1.0, frames), *others, goal=goal)
+    law = plan.trajectory
+    assert law.end_time > 40
+    assert np.ptp(law.times[law.distances == law.distances[-1]]) == pytest.approx(16)
+    assert gaps(plan, 1.0, frames, "stay").min() >= CLEARANCE - 1e-6
+
+
+def test_the_dwell_at_the_goal_is_kept_by_who_has_slowed() -> None:
+    plan = planned(ball("kite", 1.0, CROSSING), goal={"at": [40, 0, 10], "dwell_s": 16})
+    law = plan.trajectory
+    assert np.ptp(law.times[law.distances == law.distances[-1]]) == pytest.approx(16)
+
+
 @settings(max_examples=20)
 @given(seed=st.integers(0, 100_000))
 def test_plans_keep_clear_of_all_that_moves_and_keep_their_limits(seed: int) -> None:

@@ -65,14 +65,14 @@ def laws_among(
     Args:
         courses: Of them.
         law: The robot's.
-        hold: How long it stays where it arrives [s].
+        hold: How long it stays where it arrives [s], after its dwell there.
         moving: What moves.
         is_timed: Whether the robot has this law already, or is to get one.
     """
     packed = courses.packed
     count = int(packed.first[1])
     arrive, leave, speed = law_at_nodes(law, packed.distance[:count])
-    leave[-1] = arrive[-1] + hold
+    leave[-1] = law.times[-1] + hold
     clocks = np.concatenate([np.empty(0), *(one.times for one in moving)])
     timed = np.ones(len(courses.names), np.bool_)
     timed[ROBOT] = is_timed

@@ -129,7 +129,9 @@ def _taken(
         for k in np.flatnonzero(waits > SAME_S):
             law = law.waiting(float(along[k]), float(waits[k]))
         return law
-    return law_through_nodes(along, speed, arrive, leave, static)
+    law = law_through_nodes(along, speed, arrive, leave, static)
+    stays = float(static.times[-1] - static.times[static.distances == static.distances[-1]][0])
+    return law.waiting(float(along[-1]), stays) if stays > SAME_S else law
 
 
 def _waits(
