@@ -14,6 +14,7 @@ from viaspline.exports.path_table import PathTable
 from viaspline.formats.commands import CHANGE_SPEED
 from viaspline.formats.flown_items import LAND, MISSION_FRAME, OVER_HOME, TAKEOFF, WAYPOINT
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, Place
+from viaspline.formats.known_heights import check_known_home
 from viaspline.mission.space.ground_spec import GroundSpec
 
 GROUND_SPEED = 1.0
@@ -33,7 +34,11 @@ def path_itinerary(table: PathTable, fences: tuple[FenceArea, ...]) -> Itinerary
     Args:
         table: The path.
         fences: What stands beside it.
+
+    Raises:
+        OutputError: Nobody knows how high home is.
     """
+    check_known_home(table.home)
     items = tuple(
         Item(number, *rest)  # one after the other
         for number, rest in enumerate(_items(table), start=1)

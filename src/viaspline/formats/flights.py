@@ -12,7 +12,7 @@ from pydantic import TypeAdapter, ValidationError
 from viaspline.errors import MissionError
 from viaspline.formats.file_faults import refusal
 from viaspline.formats.items import ABSOLUTE, Item, Itinerary, Place
-from viaspline.formats.legs import OVER_SEA, OVER_TERRAIN, Stop
+from viaspline.formats.legs import NO_HOME_ALTITUDE, OVER_SEA, OVER_TERRAIN, Stop
 from viaspline.formats.local_frame import LocalFrame
 from viaspline.mission.space.flight_places import ground_height
 from viaspline.mission.space.ground_spec import GroundSpec
@@ -22,7 +22,7 @@ SAME_PLACE_M: Final = 0.02
 """Places nearer than this are one: the files resolve 1e-7 degree, about a centimetre."""
 
 _FLOWN: Final = frozenset(
-    {OVER_TERRAIN, OVER_SEA, "region of interest", "end of region of interest"}
+    {OVER_TERRAIN, OVER_SEA, NO_HOME_ALTITUDE, "region of interest", "end of region of interest"}
 )
 
 
@@ -96,7 +96,7 @@ def route_in_space(stops: Sequence[Stop], frame: LocalFrame, ground: GroundSpec)
         start: dict[str, Any] = {"at": places[0]}
         behind = left[1:]
     else:
-        behind = left[1:] if _is_on_ground(left[0][0]) else left
+        behind = left[1:] if left[0][0].is_home else left
         start = {}
     landing = behind.pop() if behind and behind[-1][0].is_landing else None
     points = [_point(stop, at, home, frame, ground) for stop, at in behind]
@@ -111,11 +111,6 @@ def route_in_space(stops: Sequence[Stop], frame: LocalFrame, ground: GroundSpec)
         route["goal"] = points.pop()
     route |= {"start": points[0] if points else {"at": places[0]}, "via": points[1:]}
     return FlownRoute(route, tuple(told))
-
-
-def _is_on_ground(stop: Stop) -> bool:
-    """Whether a stop is the home position, which nothing flies to."""
-    return stop.height == 0.0 and math.isnan(stop.altitude) and math.isnan(stop.over_terrain)
 
 
 def _above_ground(stop: Stop, home: float) -> float:

@@ -19,6 +19,7 @@ from viaspline.formats.fences import fence_areas
 from viaspline.formats.file_faults import fault_at, refusal
 from viaspline.formats.flights import ground_of, not_flown, route_in_space
 from viaspline.formats.items import FenceArea, Itinerary, LatLon, Place
+from viaspline.formats.known_heights import check_known_heights
 from viaspline.formats.legs import Stop, stops_of
 from viaspline.formats.local_frame import MAX_REACH_M, LocalFrame
 from viaspline.kernels.arrays import Floats
@@ -73,6 +74,7 @@ def _in_space(
 ) -> Mission:
     """The mission of a way over a ground that is known."""
     ground = ground_of(itinerary)
+    check_known_heights(itinerary.source, stops, frame, ground)
     flown = route_in_space(stops, frame, ground)
     return _mission(itinerary, frame, flown.route, flown.stops, areas, {"ground": ground})
 

@@ -29,6 +29,8 @@ OVER_TERRAIN: Final = "altitude above terrain, and no terrain is given: heights 
 
 OVER_SEA: Final = "altitude above terrain, taken by the altitude above sea level that it has there"
 
+NO_HOME_ALTITUDE: Final = "altitude above sea level without a home altitude, taken from the first"
+
 
 @dataclass(frozen=True)
 class Stop:
@@ -45,6 +47,7 @@ class Stop:
         altitude: Above mean sea level [m]; NaN if the file says another one.
         over_terrain: Above the terrain [m]; NaN if the file says another one.
         look_at: What the vehicle looks at from there on; None: nothing.
+        is_home: Whether it is the home position, which no item goes to.
     """
 
     latitude: float
@@ -57,6 +60,7 @@ class Stop:
     altitude: float = math.nan
     over_terrain: float = math.nan
     look_at: Item | None = None
+    is_home: bool = False
 
 
 @dataclass
@@ -95,7 +99,7 @@ def stops_of(itinerary: Itinerary) -> tuple[tuple[Stop, ...], tuple[tuple[str, s
     stops: list[Stop] = []
     home = itinerary.home
     if home is not None and home.is_plausible:
-        stops.append(Stop(home.latitude, home.longitude, 0.0, 0.0, home.place))
+        stops.append(Stop(home.latitude, home.longitude, 0.0, 0.0, home.place, is_home=True))
     waiting = 0.0
     looked_at: Item | None = None
     for i, item in enumerate(itinerary.items):
@@ -107,7 +111,7 @@ def stops_of(itinerary: Itinerary) -> tuple[tuple[Stop, ...], tuple[tuple[str, s
             if stops:
                 # No height is given; the vehicle comes back as high as it is and then descends.
                 height = stops[-1].height
-                back = replace(stops[0], height=height, dwell=0.0, place=item.place)
+                back = replace(stops[0], height=height, dwell=0.0, place=item.place, is_home=False)
                 stops.append(replace(back, is_landing=True))
             _rest(itinerary.items[i + 1 :], "after the return to launch", log)
             break
@@ -140,7 +144,7 @@ def _ground(itinerary: Itinerary, log: _Log) -> float:
         return 0.0
     if any(item.command in PLACES and item.frame in RELATIVE for item in itinerary.items):
         for item in absolute:
-            log.note("altitude above sea level without a home altitude, taken from the first", item)
+            log.note(NO_HOME_ALTITUDE, item)
     return absolute[0].altitude
 
 

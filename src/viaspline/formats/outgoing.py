@@ -13,6 +13,7 @@ import numpy as np
 from viaspline.errors import OutputError
 from viaspline.formats.flown_items import OVER_HOME, WAYPOINT, flown_items
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
+from viaspline.formats.known_heights import check_known_home
 from viaspline.formats.local_frame import MAX_REACH_M, LocalFrame
 from viaspline.formats.losses import losses
 from viaspline.kernels.arrays import Floats
@@ -35,7 +36,7 @@ def itinerary_of(mission: Mission, origin: LatLon | None) -> Itinerary:
 
     Raises:
         OutputError: There is no origin or it can't be meant, or the mission reaches too far from
-            it for a flat frame.
+            it for a flat frame, or nobody knows how high the ground is under the start.
     """
     frame = _frame(origin)
     if mission.is_spatial:
@@ -61,8 +62,11 @@ def itinerary_of(mission: Mission, origin: LatLon | None) -> Itinerary:
 
 def _in_space(mission: Mission, frame: LocalFrame) -> Itinerary:
     """The items of a mission in space; home is on the ground under the start."""
-    flown = list(flown_items(mission))
+    ground = mission.world.ground
     x, y = mission.route.start.at[:2]
+    sea = 0.0 if ground is None else ground_height(ground, x, y)
+    check_known_home(sea)
+    flown = list(flown_items(mission))
     named = [item.at for item in flown if item.at is not None]
     (home, *places) = _places(frame, np.array([(x, y), *named]))
     left = iter(places)
@@ -70,8 +74,6 @@ def _in_space(mission: Mission, frame: LocalFrame) -> Itinerary:
         item.item(number, *(next(left) if item.at is not None else (0.0, 0.0)))
         for number, item in enumerate(flown, start=1)
     )
-    ground = mission.world.ground
-    sea = 0.0 if ground is None else ground_height(ground, x, y)
     return Itinerary(
         source="<mission>",
         items=items,
