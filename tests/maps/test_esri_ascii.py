@@ -61,6 +61,10 @@ def test_what_was_written_is_read(seed: int, tmp_path_factory: pytest.TempPathFa
         (GOOD.replace("cellsize 2", "dx 2\ndy 3"), "dem.asc:6:1: dy: dx and dy differ"),
         (GOOD + "1 2 3\n4 5\n", "has 5 heights, but its header says 6"),
         (GOOD + "1 2 3\n4 x 6\n", r'dem.asc:8:3: found "x"'),
+        (
+            GOOD + "1 2 3\n4 -3.4e38 6\n",
+            r"dem.asc: a height is -3.4e\+38 m; say that it is the nodata",
+        ),
         (GOOD + "1 2 3\n4 inf 6\n", r'dem.asc:8:3: found "inf"'),
         (
             GOOD.replace("ncols 3", "ncols 10000").replace("nrows 2", "nrows 10000"),

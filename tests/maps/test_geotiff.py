@@ -93,6 +93,7 @@ def test_what_was_written_is_read(
         ({"tags": {33550: (12, 3, (0.0, 0.0, 0.0))}}, "makes no plane"),
         ({"tags": {33550: (12, 3, (2.0, np.nan, 0.0))}}, "makes no plane"),
         ({"nodata": "none"}, 'its nodata value is "none"'),
+        ({"heights": np.full((2, 2), -3.4e38, np.float32)}, r"a height is -3.4e\+38 m"),
         ({"heights": np.full((2, 2), np.inf, np.float32)}, "a height is infinite"),
         ({"heights": np.zeros((1, 2), np.float32)}, "2 x 1 heights; give at least 2 x 2"),
         ({"heights": np.zeros((2, 2, 3), np.uint8), "photometric": "rgb"}, "has shape"),

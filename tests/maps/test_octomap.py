@@ -117,6 +117,10 @@ ONE = {(1, 2, 3): BLOCKED, (1, 2, 4): FREE}
         (tree(ONE).replace(b"size ", b"size x"), "size: found"),
         (tree(ONE).replace(b"size ", b"size 1"), "nodes, but its header says 1"),
         (tree(ONE)[:-2], "it ends after"),
+        (
+            b"# Octomap OcTree binary file\nid OcTree\nsize 5\nres 0.5\ndata\n\xff\xff",
+            "it ends after 9, and its header says 5 nodes",
+        ),
         (tree(ONE) + b"more", "4 bytes are left over"),
         (b"# Octomap OcTree binary file\nid OcTree\nsize 0\nres 1\ndata\n", "nothing is known"),
     ],

@@ -16,7 +16,7 @@ import numpy as np
 from viaspline.bounded_file import TERRAIN_FILE, read_bytes
 from viaspline.errors import MissionError
 from viaspline.kernels.arrays import Floats
-from viaspline.maps.map_faults import check_nodes, refusal
+from viaspline.maps.map_faults import check_heights, check_nodes, refusal
 from viaspline.maps.reading import Reading
 from viaspline.maps.terrain import Terrain
 
@@ -51,6 +51,7 @@ def read_esri_ascii(path: str | Path, *, source: str | None = None) -> Terrain:
     heights = _heights(file, data, start, columns * rows).reshape(rows, columns)
     if "nodata_value" in header:
         heights[heights == _number(file, header, "nodata_value")] = np.nan
+    check_heights(file, heights)
     name = str(path) if source is None else source
     return Terrain(heights[::-1], cell, origin, name, Reading(file.absolute()))
 

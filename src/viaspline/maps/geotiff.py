@@ -12,7 +12,7 @@ import numpy as np
 from viaspline.bounded_file import TERRAIN_FILE, read_bytes
 from viaspline.errors import MissionError
 from viaspline.kernels.arrays import Floats
-from viaspline.maps.map_faults import check_nodes, refusal
+from viaspline.maps.map_faults import check_heights, check_nodes, refusal
 from viaspline.maps.reading import Reading
 from viaspline.maps.terrain import Terrain
 
@@ -157,7 +157,9 @@ def _heights(path: Path, page: TiffPage) -> Floats:
     known = ~_is_nodata(path, page, heights)
     if np.isinf(heights[known]).any():
         raise refusal(path, "a height is infinite", "say its nodata value, or correct it")
-    return np.where(known, heights, np.nan)
+    heights = np.where(known, heights, np.nan)
+    check_heights(path, heights)
+    return heights
 
 
 def _unreadable(path: Path, page: TiffPage, why: str) -> MissionError:

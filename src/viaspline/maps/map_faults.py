@@ -9,13 +9,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
+import numpy as np
+
 from viaspline.errors import Fault, MissionError
+from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import MOST_CELLS_ASIDE
 from viaspline.maps.terrain import MOST_NODES_ASIDE
 from viaspline.maps.voxels import MOST_VOXELS_ASIDE
 
 MOST_NODES: Final = 50_000_000
 """How many heights of a terrain are read at most: 0.4 GB of them."""
+MOST_HEIGHT_M: Final = 1e9
+"""The farthest from 0 that a height may be, as all coordinates of a mission."""
 MOST_CUBES: Final = 1_000_000_000
 """How many voxels are read at most: 1 GB of them."""
 
@@ -52,6 +57,22 @@ def check_size(source: str | Path, width: int, height: int) -> None:
     if max(width, height) > MOST_CELLS_ASIDE:
         problem = f"the map has {width} x {height} cells"
         raise refusal(source, problem, f"cut it: at most {MOST_CELLS_ASIDE} aside are read")
+
+
+def check_heights(source: str | Path, heights: Floats) -> None:
+    """Refuse heights that nothing on earth has: mostly a mark of "no data" that isn't declared.
+
+    Args:
+        source: The file.
+        heights: All of them, NaN where none is known [m].
+
+    Raises:
+        MissionError: There is one.
+    """
+    absurd = heights[np.abs(heights) > MOST_HEIGHT_M]
+    if absurd.size:
+        problem = f"a height is {absurd[0]:g} m"
+        raise refusal(source, problem, "say that it is the nodata value, or correct it")
 
 
 def check_nodes(source: str | Path, columns: int, rows: int) -> None:

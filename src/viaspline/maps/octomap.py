@@ -102,7 +102,8 @@ def _cell(path: Path, text: str) -> float:
 def _check(path: Path, given: int, read: int, nodes: int, size: int) -> None:
     """Refuse bits that aren't one whole tree."""
     if read == -1:
-        problem = f"it ends after {nodes} of {size} nodes"
+        of_all = f" of {size}" if nodes <= size else f", and its header says {size}"
+        problem = f"it ends after {nodes}{of_all} nodes"
         raise refusal(path, problem, "copy the file once more: a part of it is missing")
     if read == -2:
         raise refusal(path, "a cube of the finest size has parts", _REMEDY)
