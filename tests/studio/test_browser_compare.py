@@ -96,6 +96,7 @@ def test_rows_of_an_older_mission_cant_be_taken_over_until_they_are_planned_anew
     page.page.get_by_role("button", name="Plan them anew").click()
     page.until("studio.compare.isOfNow && studio.compare.rows.every(r => r.state === 'done')")
     page.until("document.querySelector('.compare-note') === null")
+    page.until("!document.querySelector('#compare tbody').textContent.includes('planning')")
     assert cells(page)[0][1] == f"{page.plan['length']:.1f} m" != old
     take.click()
     page.settle()
