@@ -110,7 +110,7 @@ def _led_round(way: WayAhead, blocked: NDArray[np.intp]) -> Solution:
             raise
     if found is None:
         return best_taken_up(way, wide, blocked, way.joined(wide, rolling))
-    return _without_hairpin(way, wide, blocked, found)
+    return found if wide == narrow else _without_hairpin(way, wide, blocked, found)
 
 
 def _without_hairpin(

@@ -98,8 +98,9 @@ def _ways_back(
     places = np.linspace(stop, 0.0, count)
     room = _room_back(context, requirements, places)
     floors = np.minimum.accumulate(room) - TRACK_SLACK_M
-    roomy = room >= required
-    if requirements.footprint is not None:
+    if requirements.footprint is None:
+        roomy = room >= required
+    else:
         middles = np.asarray(context.schedule.path.at_distance(places))
         roomy = context.knowledge.world.distance(middles) >= requirements.around
     beyond = 1 + np.flatnonzero(roomy[1:] & ~roomy[:-1])
