@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from viaspline.kernels.turning.bent_strip import bent_strip
+from viaspline.kernels.turning.bent_strip import SHARP_PRICE, bent_strip
 
 Floats = NDArray[np.float64]
 COUNT = 25
@@ -31,7 +31,7 @@ def test_no_other_offsets_between_the_bounds_bend_less(seed: int, tension: float
     lower[up], upper[down] = 0.01, -0.01
     fixed = np.zeros(COUNT, np.bool_)
     fixed[[0, -1]] = True
-    moved, prices, turned = bent_strip(places, normals, lower, upper, fixed, False, tension)
+    moved, prices, turned = bent_strip(places, normals, lower, upper, fixed, False, tension, np.inf)
     bounds = np.column_stack((lower, upper))
     bounds[fixed] = 0.0
     matrix = costs(tension)
@@ -65,10 +65,53 @@ def test_a_round_bends_least_whichever_of_its_places_is_its_first(seed: int) -> 
         places = ring[order]
         fixed = np.isin(order, (held, 0))
         normals = -places / np.hypot(*places.T)[:, None]
-        found, _, _ = bent_strip(places, normals, lower[order], upper[order], fixed, True, 0.01)
+        found, _, _ = bent_strip(
+            places, normals, lower[order], upper[order], fixed, True, 0.01, np.inf
+        )
         back: Floats = np.empty(COUNT)
         back[order] = found
         return back
 
     np.testing.assert_allclose(moved(0), moved(held), atol=2e-3)
     assert np.abs(moved(0)).max() > 0.05
+
+
+def sharp_cost(heights: Floats, sharp: float) -> float:
+    """The cost of a nearly flat strip, steps of 1 m, where bending beyond a curvature is dearer."""
+    bends = np.diff(heights, 2) ** 2
+    over = np.maximum(bends - sharp**2, 0.0) ** 2 / (2.0 * sharp**2)
+    stretch = 0.5 * 1e-3 * np.diff(heights) ** 2
+    return float((bends + SHARP_PRICE * over).sum() + stretch.sum())
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_strip_that_is_moved_on_and_on_bends_least_where_sharp_bends_are_dear(seed: int) -> None:
+    """Each move is by the second order in offsets alone; the last has nothing left to move."""
+    random = np.random.default_rng((3, seed))
+    fixed = np.zeros(COUNT, np.bool_)
+    fixed[[0, -1]] = True
+    lower, upper = np.full(COUNT, -1.0), np.full(COUNT, 1.0)
+    lower[int(random.integers(6, COUNT - 6))] = 0.1
+    bounds = np.column_stack((lower, upper))
+    bounds[fixed] = 0.0
+    start = np.where(fixed, 0.0, np.clip(0.12 * np.sin(np.pi * np.arange(COUNT) / 24.0), *bounds.T))
+    blunt, plain = (_moved_to_rest(start, lower, upper, fixed, sharp) for sharp in (1e-3, np.inf))
+    best = minimize(
+        sharp_cost, x0=blunt, args=(1e-3,), bounds=bounds, method="L-BFGS-B",
+        options={"maxiter": 20_000, "maxfun": 10**6, "ftol": 1e-15, "gtol": 1e-12},
+    )  # fmt: skip
+    assert sharp_cost(blunt, 1e-3) <= best.fun * (1.0 + 1e-3)
+    assert np.abs(np.diff(blunt, 2)).max() < 0.9 * np.abs(np.diff(plain, 2)).max()
+
+
+def _moved_to_rest(
+    heights: Floats, lower: Floats, upper: Floats, fixed: NDArray[np.bool_], sharp: float
+) -> Floats:
+    normals = np.tile([0.0, 1.0], (COUNT, 1))
+    for _ in range(30):
+        places = np.column_stack((np.arange(COUNT, dtype=float), heights))
+        moved, _, _ = bent_strip(
+            places, normals, lower - heights, upper - heights, fixed, False, 1e-3, sharp
+        )
+        heights = heights + moved
+    return heights

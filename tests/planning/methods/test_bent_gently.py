@@ -12,6 +12,7 @@ from shapely.affinity import affine_transform
 import viaspline as vs
 from viaspline.kernels.curve.measure import bending
 from viaspline.planning.methods.bent_gently import BentGently
+from viaspline.planning.problem.path_pace import Pace
 
 KEPT = 1.0
 CART = ((-0.7, -0.6), (1.3, -0.6), (1.3, 0.6), (-0.7, 0.6))
@@ -175,6 +176,33 @@ def test_where_corners_cost_time_a_path_that_bends_less_is_driven_sooner(
         saved.append(1.0 - plan.trajectory.duration / turns.trajectory.duration)
     assert min(saved) > -0.004
     assert np.median(saved) > 0.01
+
+
+@pytest.mark.parametrize(("wide", "long", "lateral"), [(2.0, 8.0, 1.0), (3.0, 16.0, 0.5)])
+def test_where_the_robot_slows_down_for_a_corner_its_turn_is_blunter_and_sooner(
+    monkeypatch: pytest.MonkeyPatch, wide: float, long: float, lateral: float
+) -> None:
+    """Against the inner corner of a corridor, where what bends least has its curvature pointed."""
+    side = long + wide
+    asked = vs.Mission.model_validate({
+        "world": {
+            "bounds": [0, 0, side, side],
+            "known": [{"polygon": [[0, wide], [long, wide], [long, side], [0, side]]}],
+        },
+        "robot": {
+            "radius_m": 0.3, "clearance_m": 0.2, "max_speed_mps": 2,
+            "max_accel_mps2": 1, "max_lateral_accel_mps2": lateral,
+        },
+        "route": {"start": [0.6, wide / 2], "goal": [side - wide / 2, side - 0.6]},
+    })  # fmt: skip
+    blunt = vs.plan(asked)
+    with monkeypatch.context() as patched:
+        patched.setattr(Pace, "slowing", np.inf)
+        pointed = vs.plan(asked)
+    assert blunt.trajectory.duration < 0.999 * pointed.trajectory.duration
+    assert bending(blunt.path.spans)[1] < 0.9 * bending(pointed.path.spans)[1]
+    assert bending(blunt.path.spans)[0] < 1.03 * bending(pointed.path.spans)[0]
+    assert blunt.certificate.clearance >= 0.2
 
 
 def test_bodies_bend_as_little_as_discs_that_are_as_wide(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,6 +1,8 @@
 """The offsets from a row of places at which a path bends least, between bounds.
 
-A thin strip under tension: its bending is priced against its length. Where no bound is
+A thin strip under tension: its bending is priced against its length. What is sharper than asked for
+may be dearer, by the fourth power of its curvature: where a strip touches a corner its curvature is
+pointed, and a robot that slows down for it is sooner round a blunter one. Where no bound is
 met one system of five diagonals tells; else bounds are kept by an interior point method, of which
 every step is such a system.
 """
@@ -20,6 +22,9 @@ TO_BOUND = 0.95  # of the way to the first bound that is met
 SETTLED = 1e-5  # product of slack and price over the cost of a place
 FIRST_PRODUCT = 0.1  # the same, at first
 LEAST_SLACK = 1e-3  # of the room between bounds, at first
+SHARP_PRICE = (
+    3.0  # of bending, for each time that the square of a curvature is beyond what is sharp
+)
 
 
 @inner
@@ -27,10 +32,22 @@ def _wrapped(angle: float) -> float:
     return angle - 2.0 * math.pi * math.floor((angle + math.pi) / (2.0 * math.pi))
 
 
+@inner
+def _turn_price(turn: float, share: float, sharp: float) -> tuple[float, float]:
+    """How the cost of a turn [rad] over a share of the way [m] grows with it, and how that does.
+
+    Beyond the curvature that is sharp its square is priced by how far it is beyond, once more.
+    """
+    over = SHARP_PRICE * max((turn / (share * sharp)) ** 2 - 1.0, 0.0)
+    each = 2.0 / share
+    slope = each * (1.0 + over) * turn
+    return slope, each * (1.0 + 3.0 * over + (2.0 * SHARP_PRICE if over > 0.0 else 0.0))
+
+
 @uncounted
 def _bands(
-    places: Floats, normals: Floats, closed: bool, tension: float, bands: Floats, slopes: Floats,
-    seam: Floats,
+    places: Floats, normals: Floats, closed: bool, tension: float, sharp: float, bands: Floats,
+    slopes: Floats, seam: Floats,
 ) -> float:  # fmt: skip
     """The cost of a polyline to the second order in offsets of its places along normals.
 
@@ -39,6 +56,7 @@ def _bands(
         normals: Unit vectors, (n, 2).
         closed: Whether it is a round, whose last place is its first.
         tension: What a metre of length is priced at [1/m²].
+        sharp: Curvature beyond which bending is dearer [1/m].
         bands: The diagonal and the two beside it, (n, 3); filled.
         slopes: (n,); filled.
         seam: Of a round: how its turn there changes by offsets, times the root of its weight, of
@@ -69,11 +87,11 @@ def _bands(
             turn = _wrapped(here - heading)
             share = 0.5 * (length + long)
             first, middle, last = -back, b - ahead, a
-            each = 2.0 / share
+            slope, each = _turn_price(turn, share, sharp)
             bending += turn * turn / share
-            slopes[j - 1] += each * turn * first
-            slopes[j] += each * turn * middle
-            slopes[j + 1] += each * turn * last
+            slopes[j - 1] += slope * first
+            slopes[j] += slope * middle
+            slopes[j + 1] += slope * last
             bands[j - 1, 0] += each * first * first
             bands[j - 1, 1] += each * first * middle
             bands[j - 1, 2] += each * first * last
@@ -81,15 +99,15 @@ def _bands(
             bands[j, 1] += each * middle * last
             bands[j + 1, 0] += each * last * last
         elif closed:
-            bending += _seam(places, normals, here, long, a, slopes, seam)
+            bending += _seam(places, normals, sharp, here, long, a, slopes, seam)
         heading, length, back, ahead = here, long, b, a
     return bending
 
 
 @uncounted
 def _seam(
-    places: Floats, normals: Floats, heading: float, step: float, per: float, slopes: Floats,
-    seam: Floats,
+    places: Floats, normals: Floats, sharp: float, heading: float, step: float, per: float,
+    slopes: Floats, seam: Floats,
 ) -> float:  # fmt: skip
     """The cost of the turn at the seam of a round, by the places beside it; its bending."""
     j = places.shape[0] - 2
@@ -98,9 +116,10 @@ def _seam(
     turn = _wrapped(heading - math.atan2(dy, dx))
     before = (dx * normals[j, 1] - dy * normals[j, 0]) / (long * long)
     share = 0.5 * (step + long)
-    slopes[1] += 2.0 / share * turn * per
-    slopes[j] += 2.0 / share * turn * before
-    seam[0], seam[1] = math.sqrt(2.0 / share) * per, math.sqrt(2.0 / share) * before
+    slope, each = _turn_price(turn, share, sharp)
+    slopes[1] += slope * per
+    slopes[j] += slope * before
+    seam[0], seam[1] = math.sqrt(each) * per, math.sqrt(each) * before
     return turn * turn / share
 
 
@@ -214,7 +233,7 @@ def _most_turned(places: Floats, moved: Floats) -> float:
 @kernel
 def bent_strip(
     places: Floats, normals: Floats, lower: Floats, upper: Floats, fixed: Flags, closed: bool,
-    tension: float,
+    tension: float, sharp: float,
 ) -> tuple[Floats, Floats, float]:  # fmt: skip
     """Move places along their normals, so that the line through them bends less.
 
@@ -226,6 +245,7 @@ def bent_strip(
         fixed: Which of them stay, the first and the last among them, (n,).
         closed: Whether it is a round, whose last place is its first.
         tension: What a metre of length is priced at [1/m²].
+        sharp: Curvature beyond which bending is dearer [1/m]; infinite where all of it costs alike.
 
     Returns:
         By what they move [m], (n,); the price of each one's bounds, negative where it would go
@@ -234,7 +254,7 @@ def bent_strip(
     count = places.shape[0]
     bands, slopes, work = np.empty((count, 3)), np.empty(count), np.empty((count, 3))
     seam, across = np.empty(2), np.empty(count)
-    bending = _bands(places, normals, closed, tension, bands, slopes, seam)
+    bending = _bands(places, normals, closed, tension, sharp, bands, slopes, seam)
     moved, step, more = np.zeros(count), np.empty(count), np.zeros(count)
     low, high = np.zeros(count), np.zeros(count)
     product = FIRST_PRODUCT * max(bending, 1e-12) / count

@@ -110,6 +110,7 @@ def _moved(
     fineness: float,
     strip: StripPlaces,
     tension: float,
+    sharp: float,
 ) -> tuple[StripPlaces, float]:
     """A strip with its places moved to where that costs least, and by how much at most [m]."""
     count = strip.low.size
@@ -119,7 +120,8 @@ def _moved(
             middle = 0.5 * (lower[j] + upper[j])
             lower[j], upper[j] = middle - LEAST_ROOM_M, middle + LEAST_ROOM_M
     moved, _, turned = bent_strip(
-        strip.places, strip.normals, lower, upper, strip.fixed, strip.closed, tension
+        strip.places, strip.normals, lower, upper, strip.fixed, strip.closed, tension,
+        sharp,
     )  # fmt: skip
     moved *= min(1.0, MOST_TURNED / max(turned, 1e-12))
     places, low, high = strip.places.copy(), strip.low - moved, strip.high - moved
@@ -140,7 +142,7 @@ def _moved(
 @kernel
 def settled_strip(
     world: PackedWorld, body: StripBody, ends: Floats, fineness: float, strip: StripPlaces,
-    tension: float, settled: float,
+    tension: float, sharp: float, settled: float,
 ) -> tuple[StripPlaces, bool]:  # fmt: skip
     """A strip at a tension after some rounds of moving its places.
 
@@ -151,13 +153,14 @@ def settled_strip(
         fineness: By how much nearer to each other places are than usual.
         strip: As it is.
         tension: What a metre of length is priced at [1/m²].
+        sharp: Curvature beyond which bending is dearer [1/m]; see ``bent_strip``.
         settled: It rests where no place moves by more, in required distances.
 
     Returns:
         It, and whether it rests; where it doesn't it may have a kink.
     """
     for _ in range(MOST_ROUNDS):
-        strip, most = _moved(world, body, ends, fineness, strip, tension)
+        strip, most = _moved(world, body, ends, fineness, strip, tension, sharp)
         if has_kink(strip.places):
             return strip, False
         missing = settled * MISSING * body.slack * body.required

@@ -58,6 +58,11 @@ class Pace:
         """The radius of turns that are driven at full speed; wider ones are no faster [m]."""
         return max(self.speed**2 / self.lateral, self.speed / self.yaw_rate)
 
+    @property
+    def slowing(self) -> float:
+        """Curvature beyond which the robot slows down; infinite where it never does [1/m]."""
+        return 1.0 / self.widest_radius if self.widest_radius > 0.0 else math.inf
+
     def corner_radii(self, turns: Floats, kept: Floats) -> Floats:
         r"""The radius with which each corner of a taut path is passed in the least time.
 

@@ -22,6 +22,8 @@ from viaspline.world.world import World
 
 MOST_TENSIONS = 8  # that are tried
 MOST_RESTLESS = 1  # of them, at which places don't come to rest: no more are tried
+SHARP = 0.5  # of the sharpest curvature, from which on more is dearer
+LEAST_BLUNTER = 0.01  # of the sharpest curvature, that has to be saved
 SETTLED, NEARLY_SETTLED = 0.02, 0.1  # of what is required: places move by less in the last round
 
 
@@ -44,7 +46,7 @@ def gentle_strips(
     chosen = _chosen(run, world, body, price)
     if chosen is None:
         return
-    for strip in _as_fine_as_it_rests(chosen):
+    for strip in _as_fine_as_it_rests(chosen, price):
         if strip.is_settled and price.is_gentler(bending(strip.spans)[0]):
             yield strip.laid
 
@@ -66,10 +68,29 @@ def _chosen(run: BendableRun, world: World, body: StripBody, price: RunPrice) ->
     return search.chosen
 
 
-def _as_fine_as_it_rests(chosen: Tried) -> Iterator[TenseStrip]:
-    """A strip with its places nearer to each other, then as it was found: that may rest alone."""
-    yield chosen.strip.finer().settled(chosen.tension, SETTLED)
+def _as_fine_as_it_rests(chosen: Tried, price: RunPrice) -> Iterator[TenseStrip]:
+    """A strip with its places nearer to each other, then as it was found: that may rest alone.
+
+    Blunter first, where that is sooner.
+    """
+    fine = chosen.strip.finer().settled(chosen.tension, SETTLED)
+    blunter = _blunter(fine, chosen.tension, price)
+    if blunter is not None:
+        yield blunter
+    yield fine
     yield chosen.strip
+
+
+def _blunter(fine: TenseStrip, tension: float, price: RunPrice) -> TenseStrip | None:
+    """A strip that is less sharp where the robot slows down; None where that isn't sooner."""
+    sharpest = bending(fine.spans)[1]
+    if not sharpest > price.slowing:
+        return None
+    blunter = fine.settled(tension, SETTLED, max(price.slowing, SHARP * sharpest))
+    if not blunter.is_settled or bending(blunter.spans)[1] > (1.0 - LEAST_BLUNTER) * sharpest:
+        return None
+    times = [price.time_of(one.spans, one.joints) for one in (blunter, fine)]
+    return blunter if times[0] < times[1] else None
 
 
 def _tried(strip: TenseStrip, moved: TenseStrip, tension: float, price: RunPrice) -> Tried:

@@ -5,6 +5,7 @@ Tested through ``planning/methods/test_bent_gently``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,15 +58,16 @@ class TenseStrip:
         )  # fmt: skip
         return TenseStrip(run, self.world, self.body, FINE, strip)
 
-    def settled(self, tension: float, settled: float) -> TenseStrip:
+    def settled(self, tension: float, settled: float, sharp: float = math.inf) -> TenseStrip:
         """It with its places moved to where that costs least, for some rounds at most.
 
         Args:
             tension: What a metre of length is priced at [1/m²].
             settled: It rests where no place moves by more, in required distances.
+            sharp: Curvature beyond which bending is dearer [1/m].
         """
         strip, is_settled = settled_strip(
-            self.world.packed, self.body, self.run.ends, self.fineness, self.strip, tension,
+            self.world.packed, self.body, self.run.ends, self.fineness, self.strip, tension, sharp,
             settled,
         )  # fmt: skip
         return TenseStrip(self.run, self.world, self.body, self.fineness, strip, is_settled)

@@ -36,12 +36,14 @@ class RunPrice:
         time: That of what was laid [s].
         bending: Of what was laid [1/m].
         least: No run on the same sides takes less time [s].
+        slowing: Curvature beyond which the robot slows down [1/m], infinite where it never does.
     """
 
     time_of: Callable[[Floats, Ints], float]
     time: float
     bending: float
     least: float
+    slowing: float
 
     def is_gentler(self, bending: float) -> bool:
         """Whether a run with a bending [1/m] bends less than what was laid."""
