@@ -22,6 +22,7 @@ from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.routing.taut_path import TautPath
 
 DETOUR = -1
+_ROUND, _TAUT_ROUND = [X, Y, KEPT, SIDE], [BEND_X, BEND_Y, BEND_RADIUS, BEND_SIDE]
 
 
 @dataclass(frozen=True)
@@ -94,6 +95,13 @@ class Bends:
         return int(np.flatnonzero(self.vias == via)[0])
 
 
+def _straight(count: int) -> Floats:
+    """Rows of ``Bends`` that go round nothing at 0, 0, (n, 6)."""
+    rows = np.zeros((count, 6))
+    rows[:, HEADING] = math.nan
+    return rows
+
+
 def bend(x: float, y: float, kept: float = 0.0, side: float = 0.0, radius: float = 0.0) -> Floats:
     """A row of ``Bends``."""
     row = np.array([x, y, 0.0, 0.0, math.nan, 0.0])
@@ -133,21 +141,20 @@ def bends_along(sequence: ViaSequence, taut_paths: Sequence[TautPath]) -> Bends:
 
 def bends_of_legs(sequence: ViaSequence, legs: Sequence[LegBends]) -> Bends:
     """The bends of a via sequence with those of its legs between them."""
-    rows: list[Floats] = []
+    table = _straight(len(sequence.vias) + sum(len(leg.rows) for leg in legs))
     vias: list[int] = []
     swings: list[float] = []
     ends = [leg.end_swing for leg in legs]
     before = [*(ends[-1:] if sequence.closed else [math.inf]), *ends]
     after = [*ends, math.inf]
     for k, via in enumerate(sequence.vias):
-        rows.append(bend(float(via.at[0]), float(via.at[1])))
+        table[len(vias), :2] = via.at[:2]
         vias.append(k)
         swings.append(min(before[k], after[k]))
         if k < len(legs):
-            rows += list(legs[k].rows)
+            table[len(vias) : len(vias) + len(legs[k].rows)] = legs[k].rows
             vias += [DETOUR] * len(legs[k].rows)
             swings += legs[k].swings.tolist()
-    table = np.array(rows)
     if not sequence.closed:
         for k, tangent in ((0, sequence.start_tangent), (-1, sequence.end_tangent)):
             if tangent is not None:
@@ -158,19 +165,15 @@ def bends_of_legs(sequence: ViaSequence, legs: Sequence[LegBends]) -> Bends:
 def rows_along(taut_path: TautPath) -> Floats:
     """What a way goes round, (k, 6); where its arcs have no common tangents, its corners."""
     if len(taut_path.bends):
-        found = [
-            bend(row[BEND_X], row[BEND_Y], row[BEND_RADIUS], row[BEND_SIDE])
-            for row in taut_path.bends[1:-1]
-        ]
-    else:
-        corners = taut_path.corners[:, [CORNER_X, CORNER_Y]]
-        steps = np.diff(corners, axis=0)
-        turns = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
-        found = [
-            bend(x, y, 0.0, math.copysign(1.0, turn))
-            for (x, y), turn in zip(corners[1:-1].tolist(), turns.tolist(), strict=True)
-        ]
-    return np.array(found).reshape(-1, 6)
+        rows = _straight(len(taut_path.bends) - 2)
+        rows[:, _ROUND] = taut_path.bends[1:-1, _TAUT_ROUND]
+        return rows
+    corners = taut_path.corners[:, [CORNER_X, CORNER_Y]]
+    steps = np.diff(corners, axis=0)
+    turns = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
+    rows = _straight(len(turns))
+    rows[:, :2], rows[:, SIDE] = corners[1:-1], np.copysign(1.0, turns)
+    return rows
 
 
 __all__ = [

@@ -67,15 +67,15 @@ class LegLane:
     def of(cls, leg: LegSearch) -> LegLane:
         """The line of a leg."""
         lane = Lane.of(leg.sequence.whole_leg(leg.index))
-        along = [0.0, lane.length, *(float(lane.seen(end)[0]) for end in leg.ends)]
-        first, last = min(along), max(along)
+        along = lane.seen(_both(leg.ends))[:, 0].tolist()
+        first, last = min(0.0, *along), max(lane.length, *along)
         ends = lane.at(first), lane.at(last)
         return cls(leg, lane, first + blocked_runs(leg.world, *ends, leg.requirements.required))
 
     @property
     def ends(self) -> tuple[float, float]:
         """How far along the line the leg begins and ends [m]."""
-        first, last = (float(self.lane.seen(end)[0]) for end in self.leg.ends)
+        first, last = self.lane.seen(_both(self.leg.ends))[:, 0].tolist()
         return first, last
 
     def is_worth_keeping(self, stays: Sequence[Stay], taut_path: TautPath) -> bool:
@@ -129,13 +129,12 @@ class LegLane:
 
         A taut path says on which side what stands there is passed, and how far aside.
         """
-        first, last = self.ends
+        (first, left), (last, left_last) = self.lane.seen(_both(self.leg.ends)).tolist()
         runs = np.clip(self.runs, first, max(first, last))
         places = self.lane.seen(taut_path.corners[:, [CORNER_X, CORNER_Y]])
         stays = [_blocked(places, run) for run in runs[runs[:, 1] > runs[:, 0]]]
-        for end, at in zip(self.leg.ends, (first, last), strict=True):
-            if self.is_off(end):
-                off = abs(float(self.lane.seen(end)[1]))
+        for at, off in ((first, abs(left)), (last, abs(left_last))):
+            if off > OFF_LANE * self.leg.requirements.required:
                 stays.append(Stay(at, at, off, 0.0, NO_BARRIERS))
         return sorted(stays, key=lambda stay: stay.begin)
 
@@ -153,12 +152,17 @@ class LegLane:
         return replace(stay, size=max(size, stay.size), barriers=closed)
 
 
+def _both(ends: tuple[Floats, Floats]) -> Floats:
+    """The ends of a leg in a row, (2, 2)."""
+    return np.array((ends[0][:2], ends[1][:2]))
+
+
 def _blocked(places: Floats, run: Floats) -> Stay:
     """A blocked piece of a lane, as a taut path with corners at places (k, 2) [m] passes it."""
     begin, end = run.tolist()
     within = places[(places[:, 0] > begin) & (places[:, 0] < end), 1]
-    at_ends = np.interp([begin, end], places[:, 0], places[:, 1])
-    aside = float(np.abs(np.append(within, at_ends)).max())
+    at_ends = np.interp((begin, end), places[:, 0], places[:, 1])
+    aside = float(max(np.abs(within).max(initial=0.0), np.abs(at_ends).max()))
     return Stay(begin, end, aside, max(end - begin, aside), NO_BARRIERS)
 
 
