@@ -260,11 +260,13 @@ def seeds(asked: argparse.Namespace, usual: int) -> range:
 
 
 def examples() -> Iterator[Named]:
-    """All examples."""
+    """All examples of one robot in the plane."""
     for file in sorted((*EXAMPLES.glob("*.yaml"), *EXAMPLES.glob("*.plan"))):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", vs.MissionWarning)
-            yield file.stem, vs.load(file)
+            loaded = vs.load(file)
+        if isinstance(loaded, vs.Mission) and not loaded.is_spatial:
+            yield file.stem, loaded
 
 
 TABLES: dict[str, Callable[[argparse.Namespace], None]] = {
