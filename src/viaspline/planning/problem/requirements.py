@@ -206,6 +206,10 @@ class Requirements(ComparedByValue):
         """Distance that the path keeps if the body is taken for the disc around it [m]."""
         return self.outer_radius + self.kept
 
+    def reduced_to(self, distance: float) -> Requirements:
+        """These where the path keeps another distance from every obstacle [m]."""
+        return replace(self, clearance=distance - self.radius - self.tracking_error)
+
     @classmethod
     def of(cls, mission: Mission, tracking_error: float = 0.0) -> Requirements:
         """The requirements of a mission.

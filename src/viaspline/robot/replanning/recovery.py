@@ -64,8 +64,7 @@ def way_out(
     straight = by_way_of(context, (here + share * (place - here))[None])
     u = float(straight.parameter(stop))
     heading = float(context.schedule.path.heading(float(context.schedule.path.parameter(stop))))
-    kept = floor - requirements.radius - requirements.tracking_error
-    until_there = replace(requirements, clearance=kept)
+    until_there = requirements.reduced_to(floor)
     if turn_conflict(world, heading, straight.spans[round(u)], until_there) != CLEAR:
         return None
     if round(u) in spans_on_wrong_side(straight, u, world, requirements):

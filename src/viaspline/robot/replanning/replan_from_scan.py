@@ -250,11 +250,10 @@ def _way_out(context: ReplanContext, room: float, spared: Requirements) -> Repla
         out = way_out(context, spared, floor) or way_out(context, requirements, floor)
         if out is not None:
             return ReplanResult(out)
-    clearance = floor - requirements.radius - requirements.tracking_error
     close = replace(
         context,
         schedule=replace(context.schedule, reduced=ReducedClearance(math.inf, floor)),
-        requirements=replace(requirements, clearance=clearance),
+        requirements=requirements.reduced_to(floor),
         floor=floor,
     )
     found = search(close)

@@ -141,8 +141,7 @@ def _turns_round(
         requirements: The body.
         floor: What it keeps there [m].
     """
-    kept = floor - requirements.radius - requirements.tracking_error
-    body, path = replace(requirements, clearance=kept), context.schedule.path
+    body, path = requirements.reduced_to(floor), context.schedule.path
     joints = np.rint(np.asarray(back.parameter(corners(back)[0]))).astype(int).tolist()
     before = [float(back.heading(joint - BEFORE_JOINT)) for joint in joints]
     arrivals = [float(path.heading(float(path.parameter(context.stop)))), *before]
