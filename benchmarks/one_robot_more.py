@@ -50,7 +50,7 @@ def main() -> None:
     missions = round_missions(asked.robots + NEWCOMERS, asked.seed)
     members = [FleetMember(name, one_lap(one)) for name, one in missions.items()]
     plan = vs.plan_fleet(vs.Fleet.of(members[: asked.robots], SEPARATION_M))
-    _, navigator = vs.FleetNavigator(plan, stops_within_m=0.0).step([], 0.0)
+    _, navigator = vs.FleetNavigator(plan).step([], 0.0)
     print(f"{len(plan.plans)} of {asked.robots} robots are served")
     for name, add in (
         ("under way", navigator.with_robot),

@@ -165,12 +165,15 @@ def test_robots_that_stop_within_the_tolerance_before_their_bars_all_arrive(
 
 
 def test_a_tolerance_with_which_robots_could_wait_for_each_other_for_ever_is_refused() -> None:
-    """r1 is to stop half a metre behind where r0 has to have seen it pass."""
-    lines = [((0.0, 0.0), (40.0, 0.0)), ((36.0, -8.0), (12.0, 34.0)), ((28.0, 34.0), (4.0, -8.0))]
+    """Each ends on the way of the next one and passes the end of another: no order is to be had."""
+    corners = [np.array([16.0 * np.cos(a), 16.0 * np.sin(a)]) / 3**0.5 for a in (0.0, 2.1, 4.2)]
+    lines = []
+    for k, end in enumerate(corners):
+        way = (end - corners[k - 1]) / np.hypot(*(end - corners[k - 1]))
+        lines.append((tuple(corners[k - 1] - 8.0 * way), tuple(end)))
     fleet = driven_on(lines)
-    bars = [0.0, 0.05, 20.0]
     refused = []
-    for short in bars:
+    for short in (0.0, 0.05, 20.0):
         try:
             FleetNavigator.of(fleet, stops_within_m=short)
         except GeometryError as error:

@@ -16,9 +16,10 @@ from viaspline.fleet.execution.fleet_orders import (
     FleetOrders,
     check_settled,
     laws_order,
-    orders_led,
 )
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.fleet.execution.fleet_run import swapped_events
+from viaspline.fleet.execution.opened_rings import orders_without_rings
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
 
@@ -50,9 +51,10 @@ def carried_over(
     leaders, by_second = _same_orders(state, before, after, kept)
     check_settled(after, leaders)
     progress = np.where(kept >= 0, state.packed.progress[kept], 0.0)
+    promised = np.where(kept >= 0, state.packed.promised[kept], 0.0)
     fixed = (kept >= 0) & state.packed.fixed[kept]
     back = np.full(len(after.names), short)
-    orders = orders_led(after, leaders, by_second, back, progress, fixed)
+    orders = orders_without_rings(after, leaders, by_second, back, progress, fixed, promised)
     new = FleetProgressState.at_start(after, orders)
     packed = new.packed
     robots = np.flatnonzero(kept >= 0)
@@ -67,7 +69,8 @@ def carried_over(
     packed.begin[kept < 0] = np.maximum(packed.begin[kept < 0], state.time)
     check_let_in(orders, packed.promised, packed.progress)
     open_bars(orders.packed, packed)
-    return replace(new, time=state.time, events=state.events, no_ways=state.no_ways)
+    swapped = swapped_events(after.names, leaders, orders.leaders, max(state.time, 0.0))
+    return replace(new, time=state.time, events=(*state.events, *swapped), no_ways=state.no_ways)
 
 
 def _begin_anew(

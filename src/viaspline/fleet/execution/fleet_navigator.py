@@ -13,12 +13,13 @@ from viaspline.fleet.execution.believed_reports import believed
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
 from viaspline.fleet.execution.dwells import FleetStations, dwell
 from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
-from viaspline.fleet.execution.fleet_orders import index_of, orders_of
+from viaspline.fleet.execution.fleet_orders import decided, index_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
-from viaspline.fleet.execution.fleet_run import FleetEvent, swapped_event
+from viaspline.fleet.execution.fleet_run import FleetEvent, swapped_events
 from viaspline.fleet.execution.fleet_standing import FleetStanding
 from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
 from viaspline.fleet.execution.granted_commands import commands_of
+from viaspline.fleet.execution.opened_rings import orders_without_rings
 from viaspline.fleet.execution.rolled_over import rolled_over
 from viaspline.fleet.execution.ways_from_rest import FleetMissions, check_member
 from viaspline.fleet.fleet_plan import FleetPlan
@@ -60,7 +61,8 @@ class FleetNavigator(FleetStanding):
 
     A robot that comes to rest a little before where it has to stop opens what it would have opened
     there only if that is behind it. So the graph is one of robots that stop ``stops_within_m``
-    short: however near to that they come to rest, nobody waits for ever.
+    short: however near to that they come to rest, nobody waits for ever. Where that needs it, a
+    robot passes before one that is to pass before it by the plan; ``events`` tells of it.
 
     A robot is let beyond a station when it has stood there for its time, by its reports.
 
@@ -77,7 +79,8 @@ class FleetNavigator(FleetStanding):
 
     Raises:
         GeometryError: The laws of the plan keep no order, or with the margin and what robots stop
-            short one with a cycle; or something moves in its world that waits for nobody.
+            short there is none without a cycle; or something moves in its world that waits for
+            nobody.
 
     Example:
         >>> import viaspline as vs
@@ -118,10 +121,13 @@ class FleetNavigator(FleetStanding):
     ) -> None:
         self._margin = _length("margin_m", margin_m)
         self._short = _length("stops_within_m", stops_within_m)
-        orders = orders_of(fleet, np.full(len(fleet.names), self._margin + self._short))
+        short = np.full(len(fleet.names), self._margin + self._short)
+        leaders, by_second = decided(fleet)
+        orders = orders_without_rings(fleet, leaders, by_second, short)
         self._fleet, self._stations = fleet, FleetStations.of(fleet)
         self._period = time_from("period", period)
-        self._state = FleetProgressState.at_start(fleet, orders)
+        events = swapped_events(fleet.names, leaders, orders.leaders, 0.0)
+        self._state = replace(FleetProgressState.at_start(fleet, orders), events=tuple(events))
 
     def _with(self, state: FleetProgressState) -> FleetNavigator:
         navigator = object.__new__(FleetNavigator)
@@ -165,9 +171,7 @@ class FleetNavigator(FleetStanding):
             fleet.courses.packed, fleet.alone, orders, packed, robots, table,
             state.sequence, bool(swaps), time,
         )  # fmt: skip
-        for c in np.flatnonzero(before != packed.leaders).tolist():
-            one, two = (fleet.names[r] for r in (packed.leaders[c], before[c]))
-            events.append(swapped_event(one, two, time))
+        events += swapped_events(fleet.names, before, packed.leaders, time)
         events += state.silences(SILENT_S, fleet.rides.depart)
         commands = commands_of(fleet, self._stations, state, grants, self._period)
         state = replace(state, sequence=sequence, events=tuple(events))

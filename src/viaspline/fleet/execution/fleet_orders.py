@@ -139,16 +139,33 @@ def orders_led(
     Raises:
         GeometryError: The orders have a cycle.
     """
-    none = np.zeros(len(fleet.names))
-    packed = _packed(fleet, leaders, by_second)._replace(short=none if short is None else short)
-    heads = packed.first[:-1].copy()
-    stands = np.zeros(len(fleet.names), np.bool_) if fixed is None else fixed
-    come = none if progress is None else progress
-    sequence, stuck = order_flow(packed, leaders, come, heads, stands)
-    stuck[_held_up(packed, stuck, stands)] = -1
+    packed = packed_orders(fleet, leaders, by_second, short)
+    sequence, stuck = flow_of(packed, leaders, progress, fixed)
     if (stuck >= 0).any():
-        raise GeometryError(_cycle(fleet.names, packed, stuck))
+        raise GeometryError(cycle_words(fleet.names, packed, stuck))
     return FleetOrders(fleet.names, packed, leaders, by_second, sequence)
+
+
+def flow_of(
+    orders: PackedOrders, leaders: Ints, progress: Floats | None = None, fixed: Flags | None = None
+) -> tuple[Ints, Ints]:
+    """An order in which bars can be passed, and where robots are in a cycle or behind one.
+
+    Args:
+        orders: With all bars.
+        leaders: Who passes each crossing first, (c,).
+        progress: As for ``orders_led``.
+        fixed: As for ``orders_led``.
+
+    Returns:
+        All bars that are passed, (m,), and the bar at which each robot is stuck, or -1, (n,).
+    """
+    count = len(orders.length)
+    stands = np.zeros(count, np.bool_) if fixed is None else fixed
+    come = np.zeros(count) if progress is None else progress
+    sequence, stuck = order_flow(orders, leaders, come, orders.first[:-1].copy(), stands)
+    stuck[_held_up(orders, stuck, stands)] = -1
+    return sequence, stuck
 
 
 def _held_up(orders: PackedOrders, stuck: Ints, fixed: Flags) -> Flags:
@@ -160,8 +177,10 @@ def _held_up(orders: PackedOrders, stuck: Ints, fixed: Flags) -> Flags:
     return held
 
 
-def _packed(fleet: DrivenFleet, leaders: Ints, by_second: Flags) -> PackedOrders:
-    """The bars of all crossings, ordered along each path."""
+def packed_orders(
+    fleet: DrivenFleet, leaders: Ints, by_second: Flags, short: Floats | None = None
+) -> PackedOrders:
+    """The bars of all crossings, ordered along each path; see ``orders_led``."""
     courses, crossings = fleet.courses.packed, fleet.crossings.packed
     who, where = crossing_bars(courses, crossings, leaders, by_second)
     lengths, vanishes = fleet.lengths, fleet.rides.vanishes
@@ -185,23 +204,34 @@ def _packed(fleet: DrivenFleet, leaders: Ints, by_second: Flags) -> PackedOrders
         may_lead=may_lead,
         length=lengths,
         vanishes=vanishes,
-        short=np.zeros(len(fleet.names)),
+        short=np.zeros(len(fleet.names)) if short is None else short,
     )
     set_bar_times(courses, fleet.alone, orders)
     return orders
 
 
-def _cycle(names: tuple[str, ...], orders: PackedOrders, stuck: Ints) -> str:
-    """Who waits for whom, and for whom that one waits, until somebody comes again."""
-    robot, met = int(np.flatnonzero(stuck >= 0)[0]), []
+def ring_of(orders: PackedOrders, stuck: Ints) -> list[int]:
+    """Robots each of which waits for the next one, and the last for the first, (k,).
+
+    Where none do, it is two: the latter has arrived, where the former wants to pass.
+
+    Args:
+        orders: With all bars.
+        stuck: The bar at which each robot is stuck, or -1; some are, (n,).
+    """
+    robot, met = int(np.flatnonzero(stuck >= 0)[0]), list[int]()
     while robot not in met:
         met.append(robot)
-        if stuck[robot] < 0:  # it has arrived, where another wants to pass
-            break
+        if stuck[robot] < 0:
+            return met[-2:]
         robot = int(orders.other[stuck[robot]])
-    ring = met[met.index(robot) :] if stuck[robot] >= 0 else met[-2:]
+    return met[met.index(robot) :]
+
+
+def cycle_words(names: tuple[str, ...], orders: PackedOrders, stuck: Ints) -> str:
+    """Who waits for whom, and for whom that one waits, until somebody comes again."""
     words = []
-    for one in ring:
+    for one in ring_of(orders, stuck):
         if stuck[one] >= 0:
             bar = stuck[one]
             words.append(

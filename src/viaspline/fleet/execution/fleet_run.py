@@ -18,7 +18,7 @@ from viaspline.fleet.execution.fleet_orders import index_of
 from viaspline.fleet.fleet_certificate import FleetCertificate, certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.handed_in import time_from
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.moving_value import MovingValue
 from viaspline.presentable.named_columns import Table, named_columns, stacked_tables
@@ -58,6 +58,21 @@ class FleetEvent:
 def swapped_event(first: str, second: str, time: float) -> FleetEvent:
     """The order of two robots in a crossing was swapped."""
     return FleetEvent("swapped", time, first, f"{first} passes before {second}", second)
+
+
+def swapped_events(
+    names: tuple[str, ...], before: Ints, after: Ints, time: float
+) -> list[FleetEvent]:
+    """The orders of crossings that were swapped.
+
+    Args:
+        names: Of the robots.
+        before: Who was to pass each crossing first, (c,).
+        after: Who is now, (c,).
+        time: When that is [s].
+    """
+    pairs = np.column_stack((after, before))[before != after].tolist()
+    return [swapped_event(names[one], names[two], time) for one, two in pairs]
 
 
 @dataclass(frozen=True, eq=False)
