@@ -23,6 +23,7 @@ from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.execution.delay_propagation import DelayPropagation
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
 from viaspline.fleet.execution.fleet_orders import FleetOrders, orders_of
+from viaspline.fleet.execution.grown_fleet import grown_fleet
 from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
 from viaspline.fleet.execution.simulate_fleet import drive_fleet
 from viaspline.kernels.fleet.crossing_leaders import UNTIMED
@@ -93,7 +94,7 @@ def one_more(plan: vs.FleetPlan) -> None:
         found.append(1e3 * (time.process_time() - begin))
         begin = time.process_time()
         with suppress(vs.GaveUpError):
-            joined_fleet(driven, plan.laws.packed, nobody, member, path)
+            joined_fleet(grown_fleet(driven, member, path), nobody)
             joined.append(1e3 * (time.process_time() - begin))
     print(
         f"one robot more: its crossings {np.median(found):.1f} ms, with its law and put into the "

@@ -97,6 +97,16 @@ def box_owners(crossings: PackedCrossings) -> Ints:
     return np.repeat(np.arange(len(crossings.box_first) - 1), np.diff(crossings.box_first))
 
 
+def with_boxes_of(crossings: PackedCrossings, chosen: Flags) -> PackedCrossings:
+    """Crossings without the boxes of any but some of them, (c,)."""
+    boxes = np.flatnonzero(chosen[crossings.crossing])
+    return crossings._replace(
+        box_first=np.searchsorted(boxes, crossings.box_first).astype(np.int64),
+        cell=crossings.cell[boxes], crossing=crossings.crossing[boxes],
+        other=crossings.other[boxes], low=crossings.low[boxes], high=crossings.high[boxes],
+    )  # fmt: skip
+
+
 def _flags(count: int, chosen: Ints) -> Flags:
     flags = np.zeros(count, dtype=np.bool_)
     flags[chosen] = True

@@ -25,7 +25,22 @@ def renewed_crossings(
     Raises:
         GaveUpError: As ``crossings_of``.
     """
-    fresh = crossings_of(courses, changed).packed
+    return put_among(before, old, courses, changed, crossings_of(courses, changed).packed)
+
+
+def put_among(
+    before: FleetCrossings, old: FleetCourses, courses: FleetCourses, changed: Ints,
+    fresh: PackedCrossings,
+) -> FleetCrossings:  # fmt: skip
+    """Crossings of which those of some robots are others.
+
+    Args:
+        before: As for ``renewed_crossings``, as are the next three.
+        old: As there.
+        courses: As there.
+        changed: As there.
+        fresh: The crossings of these robots.
+    """
     is_changed = np.zeros(len(courses.names), np.bool_)
     is_changed[changed] = True
     more = len(courses.names) - len(old.names)

@@ -17,8 +17,8 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_messages import ProgressReport
 from viaspline.fleet.execution.fleet_navigator import FleetNavigator
-from viaspline.fleet.execution.fleet_orders import decided, orders_led, orders_of
-from viaspline.fleet.execution.opened_rings import orders_without_rings
+from viaspline.fleet.execution.fleet_orders import decided, drawn_orders, orders_led, orders_of
+from viaspline.fleet.execution.opened_rings import without_rings
 
 
 def with_a_ring(seed: int, short: float) -> tuple[DrivenFleet, np.ndarray]:
@@ -34,7 +34,8 @@ def with_a_ring(seed: int, short: float) -> tuple[DrivenFleet, np.ndarray]:
 def test_one_robot_of_a_ring_passes_first_and_all_else_is_as_it_was(seed: int) -> None:
     fleet, back = with_a_ring(seed, 1.0)
     planned, by_second = decided(fleet)
-    orders = orders_without_rings(fleet, planned, by_second, back)
+    drawn = drawn_orders(fleet, planned, by_second, back)
+    orders = without_rings(drawn, fleet.rides.depart)
     assert sorted(orders.sequence.tolist()) == list(range(orders.packed.place.size))
     (swapped,) = np.flatnonzero(orders.leaders != planned)
     assert set(fleet.crossings.packed.robots[swapped]) == {
@@ -50,7 +51,8 @@ def test_orders_without_a_ring_stay_as_they_are() -> None:
     fleet = driven_on(timed_lines(64, 12))
     back = np.full(len(fleet.names), 0.05)
     planned, by_second = decided(fleet)
-    kept, given = orders_without_rings(fleet, planned, by_second, back), orders_of(fleet, back)
+    drawn = drawn_orders(fleet, planned, by_second, back)
+    kept, given = without_rings(drawn, fleet.rides.depart), orders_of(fleet, back)
     assert kept.leaders.tolist() == given.leaders.tolist() == planned.tolist()
     assert kept.sequence.tolist() == given.sequence.tolist()
 
@@ -58,8 +60,9 @@ def test_orders_without_a_ring_stay_as_they_are() -> None:
 def test_no_robot_is_swapped_that_has_been_let_in() -> None:
     """All of them may be anywhere on their paths already: no order can be another."""
     fleet, back = with_a_ring(64, 1.0)
+    drawn = drawn_orders(fleet, *decided(fleet), back)
     with pytest.raises(GeometryError, match="the orders have a cycle"):
-        orders_without_rings(fleet, *decided(fleet), back, promised=fleet.lengths)
+        without_rings(drawn, fleet.rides.depart, promised=fleet.lengths)
 
 
 def test_a_navigator_tells_who_passes_first_in_place_of_whom() -> None:

@@ -10,16 +10,19 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.errors import GeometryError
-from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.crossings import FleetCrossings, with_boxes_of
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_orders import (
     FleetOrders,
     check_settled,
+    drawn_orders,
     laws_order,
 )
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import swapped_events
-from viaspline.fleet.execution.opened_rings import orders_without_rings
+from viaspline.fleet.execution.grown_fleet import GrownFleet
+from viaspline.fleet.execution.grown_orders import grown_orders
+from viaspline.fleet.execution.opened_rings import without_rings
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
 
@@ -50,11 +53,47 @@ def carried_over(
     kept = _kept(before, after)
     leaders, by_second = _same_orders(state, before, after, kept)
     check_settled(after, leaders)
+    drawn = drawn_orders(after, leaders, by_second, np.full(len(after.names), short))
+    return _begun(state, before, after, kept, drawn)
+
+
+def carried_with(
+    state: FleetProgressState, before: DrivenFleet, grown: GrownFleet, short: float
+) -> FleetProgressState:
+    """The state of a fleet with a robot that has a new path; see ``carried_over``.
+
+    Args:
+        state: Without that path.
+        before: What was driven.
+        grown: What is driven now.
+        short: How far before a bar each robot may stand and be believed to be farther back [m].
+
+    Raises:
+        GeometryError: As for ``carried_over``.
+    """
+    kept = np.arange(len(grown.fleet.names))
+    kept[grown.robot] = -1
+    drawn = grown_orders(state, grown, np.full(len(kept), short))
+    return _begun(state, before, grown.fleet, kept, drawn)
+
+
+def _begun(
+    state: FleetProgressState, before: DrivenFleet, after: DrivenFleet, kept: Ints,
+    drawn: FleetOrders,
+) -> FleetProgressState:  # fmt: skip
+    """The state of a fleet with another plan, if its orders have no cycle.
+
+    Args:
+        state: Under the plan before.
+        before: That plan.
+        after: The other one.
+        kept: For each robot its number before if its path is the same, else -1, (n,).
+        drawn: Who passes each crossing first.
+    """
     progress = np.where(kept >= 0, state.packed.progress[kept], 0.0)
     promised = np.where(kept >= 0, state.packed.promised[kept], 0.0)
     fixed = (kept >= 0) & state.packed.fixed[kept]
-    back = np.full(len(after.names), short)
-    orders = orders_without_rings(after, leaders, by_second, back, progress, fixed, promised)
+    orders = without_rings(drawn, after.rides.depart, progress, fixed, promised)
     new = FleetProgressState.at_start(after, orders)
     packed = new.packed
     robots = np.flatnonzero(kept >= 0)
@@ -67,9 +106,9 @@ def carried_over(
     packed.recall_place[:] = np.inf
     _begin_anew(new, state, before, kept)
     packed.begin[kept < 0] = np.maximum(packed.begin[kept < 0], state.time)
-    check_let_in(orders, packed.promised, packed.progress)
     open_bars(orders.packed, packed)
-    swapped = swapped_events(after.names, leaders, orders.leaders, max(state.time, 0.0))
+    check_let_in(orders, packed.promised, packed.progress, packed.head)
+    swapped = swapped_events(after.names, drawn.leaders, orders.leaders, max(state.time, 0.0))
     return replace(new, time=state.time, events=(*state.events, *swapped), no_ways=state.no_ways)
 
 
@@ -114,24 +153,13 @@ def _same_orders(
     new, old, was = new[was >= 0], old[was >= 0], was[was >= 0]
     is_open = np.ones(len(after.crossings.packed.robots), np.bool_)
     is_open[new] = False
-    leaders, by_second = laws_order(_with_boxes_of(after, is_open))
+    crossings = with_boxes_of(after.crossings.packed, is_open)
+    leaders, by_second = laws_order(replace(after, crossings=FleetCrossings(crossings)))
     number = np.full(len(before.names), -1)
     number[kept[kept >= 0]] = np.flatnonzero(kept >= 0)
     leaders[new] = number[was]
     by_second[new] = (was != state.orders.leaders[old]) | state.orders.by_second[old]
     return leaders, by_second
-
-
-def _with_boxes_of(fleet: DrivenFleet, chosen: Flags) -> DrivenFleet:
-    """A fleet without the boxes of any but some of its crossings, (c,)."""
-    crossings = fleet.crossings.packed
-    boxes = np.flatnonzero(chosen[crossings.crossing])
-    packed = crossings._replace(
-        box_first=np.searchsorted(boxes, crossings.box_first).astype(np.int64),
-        cell=crossings.cell[boxes], crossing=crossings.crossing[boxes],
-        other=crossings.other[boxes], low=crossings.low[boxes], high=crossings.high[boxes],
-    )  # fmt: skip
-    return replace(fleet, crossings=FleetCrossings(packed))
 
 
 def _same_crossings(before: DrivenFleet, after: DrivenFleet, kept: Ints) -> tuple[Ints, Ints]:
@@ -166,24 +194,33 @@ def let_in_too_early(orders: FleetOrders, promised: Floats, progress: Floats) ->
         promised: The farthest that each robot may take to be granted [m], (n,).
         progress: How far each has come at least [m], (n,).
     """
-    bars, robots = _passed_too_early(orders, promised, progress)
+    bars, robots = _passed_too_early(orders, promised, progress, orders.packed.first[:-1])
     return dict(zip(orders.packed.crossing[bars].tolist(), robots.tolist(), strict=True))
 
 
 def _passed_too_early(
-    orders: FleetOrders, promised: Floats, progress: Floats
-) -> tuple[Ints, Ints]:  # fmt: skip
-    """The bars beyond which robots have been let before those that are to pass first, and whom."""
+    orders: FleetOrders, promised: Floats, progress: Floats, head: Ints
+) -> tuple[Ints, Ints]:
+    """The bars beyond which robots have been let before those that are to pass first, and whom.
+
+    Bars before ``head`` are open, (n,).
+    """
     packed = orders.packed
-    robot = np.repeat(np.arange(len(orders.names)), np.diff(packed.first))
-    counts = orders.leaders[packed.crossing] == packed.other
-    is_here = np.isfinite(progress)[robot]
-    late = counts & is_here & (promised[robot] > packed.place + SAME_M)
-    bars = np.flatnonzero(late & (progress[packed.other] < packed.passed))
-    return bars, robot[bars]
+    here = np.flatnonzero(np.isfinite(progress)).tolist()
+    ends = packed.first[1:]
+    let = [
+        np.arange(head[r], head[r] + np.searchsorted(packed.place[head[r] : ends[r]], promised[r]))
+        for r in here
+    ]
+    bars: Ints = np.concatenate([np.empty(0, np.int64), *let])
+    robot = np.repeat(here, [one.size for one in let]).astype(np.int64)
+    late = orders.leaders[packed.crossing[bars]] == packed.other[bars]
+    late &= promised[robot] > packed.place[bars] + SAME_M
+    late &= progress[packed.other[bars]] < packed.passed[bars]
+    return bars[late], robot[late]
 
 
-def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> None:
+def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats, head: Ints) -> None:
     """Refuse a leader of a crossing into which the other robot has been let already.
 
     Args:
@@ -191,12 +228,13 @@ def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> Non
         promised: The farthest that each robot may take to be granted [m], (n,).
         progress: How far each has come at least [m], (n,); inf for one that has left the world, and
             is in nobody's way whatever it was let into.
+        head: The first bar of each robot that isn't open, (n,).
 
     Raises:
         GeometryError: With who was to pass before whom.
     """
     packed = orders.packed
-    bars, robots = _passed_too_early(orders, promised, progress)
+    bars, robots = _passed_too_early(orders, promised, progress, head)
     if bars.size:
         b = int(bars[0])
         first, second = orders.names[packed.other[b]], orders.names[int(robots[0])]

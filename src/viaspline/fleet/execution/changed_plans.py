@@ -11,6 +11,7 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, rounds_of
 from viaspline.fleet.execution.fleet_orders import index_of
+from viaspline.fleet.execution.grown_fleet import grown_fleet
 from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
 from viaspline.fleet.execution.left_fleet import fleet_without
 from viaspline.fleet.execution.ways_from_rest import check_member, laid_from_rest
@@ -143,7 +144,7 @@ def _with(plan: FleetPlan, member: FleetMember, members: Sequence[FleetMember]) 
     laid = _laid(plan, member)
     count = len(plan.names)
     nowhere = LetIn(np.full(count, np.inf), np.zeros(count), np.zeros(count, np.bool_))
-    joined = joined_fleet(driven, plan.laws.packed, nowhere, member, laid)
+    joined = joined_fleet(grown_fleet(driven, member, laid), nowhere).fleet
     robot = joined.names.index(member.name)
     rides = _rides(joined, plan, member.name)
     law = timed_trajectory(laid.trajectory, joined.courses, rides, joined.laws, robot)

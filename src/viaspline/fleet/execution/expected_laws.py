@@ -9,8 +9,6 @@ Tested through ``fleet/execution/test_changed_fleets``.
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
@@ -21,8 +19,9 @@ from viaspline.kernels.fleet.packed_laws import PackedLaws
 
 
 def expected_laws(
-    fleet: DrivenFleet, state: FleetProgressState, leaves: int | None = None
-) -> PackedLaws:
+    fleet: DrivenFleet, state: FleetProgressState, leaves: int | None = None,
+    chosen: Ints | None = None,
+) -> PackedLaws:  # fmt: skip
     """The laws of a fleet from now on; of robots that don't drive any more there are none.
 
     Args:
@@ -30,22 +29,23 @@ def expected_laws(
         state: How far it has come.
         leaves: A robot that leaves its path where it is: those who wait for it there come later
             than anybody else, but do come, and in the order that they would have.
+        chosen: Whose laws are asked for; the others have those that they had, (k,). None: all.
     """
     orders, packed = state.orders.packed, state.packed
     shift, _ = expected_shifts(orders, packed.leaders, state.sequence, packed.head, packed.begin)
     alone, courses, stuck = fleet.alone, fleet.courses.packed, state.stuck(leaves)
     for_good = stuck if leaves is None else state.stuck()
-    by_bars = [
-        _later(shift[begin:end], int(packed.head[robot]) - begin, packed.begin[robot])
-        for robot, (begin, end) in enumerate(pairwise(orders.first.tolist()))
-    ]
-    ends = alone.arrive[courses.first[1:] - 1] + [later[-1] for later in by_bars]
-    behind_all = float(ends[np.isfinite(ends)].max(initial=0.0))
-    arrive, leave = np.full_like(alone.arrive, np.inf), np.full_like(alone.leave, np.inf)
-    for robot in np.flatnonzero(~state.out).tolist():
+    drives = np.flatnonzero(~state.out)
+    asked = drives if chosen is None else np.intersect1d(drives, chosen)
+    behind_all = _last_arrival(fleet, state, shift) if (stuck[asked] >= 0).any() else 0.0
+    old = fleet.laws.packed
+    arrive, leave, speed = old.arrive.copy(), old.leave.copy(), old.speed.copy()
+    if chosen is None:
+        arrive[:], leave[:] = np.inf, np.inf
+    for robot in asked.tolist():
         nodes = slice(int(courses.first[robot]), int(courses.first[robot + 1]))
         bars = slice(int(orders.first[robot]), int(orders.first[robot + 1]))
-        later = by_bars[robot]
+        later = _later(shift, state, robot)
         if stuck[robot] >= 0:
             later[stuck[robot] - bars.start + 1 :] += behind_all
         if for_good[robot] >= 0:
@@ -55,16 +55,27 @@ def expected_laws(
         goes: Ints = np.searchsorted(places, along, side="right")
         arrive[nodes] = alone.arrive[nodes] + later[comes]
         leave[nodes] = alone.leave[nodes] + later[goes]
+        speed[nodes] = alone.speed[nodes]
         gone = np.flatnonzero(along[1:] <= packed.progress[robot]) + nodes.start
         arrive[gone] = leave[gone] = -np.inf  # who joins may have stood there since ever
         last = nodes.stop - 1
         arrived = arrive[last] + fleet.rides.stays[last]
         leave[last] = arrived if fleet.rides.vanishes[robot] else np.inf
-    return PackedLaws(arrive, leave, alone.speed.copy(), ~state.out)
+    return PackedLaws(arrive, leave, speed, ~state.out)
 
 
-def _later(shift: Floats, head: int, begin: float) -> Floats:
+def _last_arrival(fleet: DrivenFleet, state: FleetProgressState, shift: Floats) -> float:
+    """When the last robot arrives of those that do [s]."""
+    last = [float(_later(shift, state, robot)[-1]) for robot in range(len(fleet.names))]
+    ends = fleet.alone.arrive[fleet.courses.packed.first[1:] - 1] + last
+    return float(ends[np.isfinite(ends)].max(initial=0.0))
+
+
+def _later(shift: Floats, state: FleetProgressState, robot: int) -> Floats:
     """How much later than its law alone a robot is after so many of its bars [s], (m + 1,)."""
-    known = np.where(np.arange(len(shift)) < head, begin, shift)
-    later: Floats = np.maximum.accumulate(np.concatenate(([begin], known)))
+    first, packed = state.orders.packed.first, state.packed
+    own = shift[first[robot] : first[robot + 1]]
+    passed = int(packed.head[robot] - first[robot])
+    known = np.where(np.arange(len(own)) < passed, packed.begin[robot], own)
+    later: Floats = np.maximum.accumulate(np.concatenate(([packed.begin[robot]], known)))
     return later

@@ -13,13 +13,13 @@ from viaspline.fleet.execution.believed_reports import believed
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
 from viaspline.fleet.execution.dwells import FleetStations, dwell
 from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
-from viaspline.fleet.execution.fleet_orders import decided, index_of
+from viaspline.fleet.execution.fleet_orders import decided, drawn_orders, index_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent, swapped_events
 from viaspline.fleet.execution.fleet_standing import FleetStanding
 from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
 from viaspline.fleet.execution.granted_commands import commands_of
-from viaspline.fleet.execution.opened_rings import orders_without_rings
+from viaspline.fleet.execution.opened_rings import without_rings
 from viaspline.fleet.execution.rolled_over import rolled_over
 from viaspline.fleet.execution.ways_from_rest import FleetMissions, check_member
 from viaspline.fleet.fleet_plan import FleetPlan
@@ -123,7 +123,8 @@ class FleetNavigator(FleetStanding):
         self._short = _length("stops_within_m", stops_within_m)
         short = np.full(len(fleet.names), self._margin + self._short)
         leaders, by_second = decided(fleet)
-        orders = orders_without_rings(fleet, leaders, by_second, short)
+        drawn = drawn_orders(fleet, leaders, by_second, short)
+        orders = without_rings(drawn, fleet.rides.depart)
         self._fleet, self._stations = fleet, FleetStations.of(fleet)
         self._period = time_from("period", period)
         events = swapped_events(fleet.names, leaders, orders.leaders, 0.0)

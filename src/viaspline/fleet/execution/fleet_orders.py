@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,7 +33,8 @@ class FleetOrders:
             (c,).
         by_second: Whether the bars of the second robot of a crossing are made from its own boxes,
             else from the leader's, (c,).
-        sequence: All bars in an order in which they can be passed, (bars,).
+        sequence: All bars in an order in which they can be passed, (bars,); none as long as it
+            isn't known that there is one.
     """
 
     names: tuple[str, ...]
@@ -139,11 +140,11 @@ def orders_led(
     Raises:
         GeometryError: The orders have a cycle.
     """
-    packed = packed_orders(fleet, leaders, by_second, short)
-    sequence, stuck = flow_of(packed, leaders, progress, fixed)
+    drawn = drawn_orders(fleet, leaders, by_second, short)
+    sequence, stuck = flow_of(drawn.packed, leaders, progress, fixed)
     if (stuck >= 0).any():
-        raise GeometryError(cycle_words(fleet.names, packed, stuck))
-    return FleetOrders(fleet.names, packed, leaders, by_second, sequence)
+        raise GeometryError(cycle_words(fleet.names, drawn.packed, stuck))
+    return replace(drawn, sequence=sequence)
 
 
 def flow_of(
@@ -177,10 +178,17 @@ def _held_up(orders: PackedOrders, stuck: Ints, fixed: Flags) -> Flags:
     return held
 
 
-def packed_orders(
+def drawn_orders(
     fleet: DrivenFleet, leaders: Ints, by_second: Flags, short: Floats | None = None
-) -> PackedOrders:
-    """The bars of all crossings, ordered along each path; see ``orders_led``."""
+) -> FleetOrders:
+    """Orders with the bars of all crossings, which may have a cycle; there is no sequence yet.
+
+    Args:
+        fleet: As for ``orders_led``, as are the others.
+        leaders: As there.
+        by_second: As there.
+        short: As there.
+    """
     courses, crossings = fleet.courses.packed, fleet.crossings.packed
     who, where = crossing_bars(courses, crossings, leaders, by_second)
     lengths, vanishes = fleet.lengths, fleet.rides.vanishes
@@ -207,7 +215,7 @@ def packed_orders(
         short=np.zeros(len(fleet.names)) if short is None else short,
     )
     set_bar_times(courses, fleet.alone, orders)
-    return orders
+    return FleetOrders(fleet.names, orders, leaders, by_second, np.empty(0, np.int64))
 
 
 def ring_of(orders: PackedOrders, stuck: Ints) -> list[int]:

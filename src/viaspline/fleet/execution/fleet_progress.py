@@ -138,6 +138,8 @@ class FleetProgressState:
         fixed = packed.fixed.copy()
         if leaves is not None:
             fixed[leaves] = True
+        if not fixed.any():  # the orders have no cycle
+            return np.full(len(fixed), -1)
         stuck: Ints = order_flow(orders, packed.leaders, packed.progress, packed.head, fixed)[1]
         return stuck
 

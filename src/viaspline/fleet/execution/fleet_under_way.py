@@ -11,18 +11,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.errors import GaveUpError, GeometryError, NoPathError, PlanningError
-from viaspline.fleet.execution.carried_over import carried_over
+from viaspline.fleet.execution.carried_over import carried_over, carried_with
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.dwells import STANDS_MPS, FleetStations
 from viaspline.fleet.execution.expected_laws import expected_laws
 from viaspline.fleet.execution.fleet_orders import index_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent
+from viaspline.fleet.execution.grown_fleet import GrownFleet, grown_fleet
 from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
 from viaspline.fleet.execution.no_ways import NoWay, SoughtWay
 from viaspline.fleet.execution.other_ways import around_now, laid_now, left_of_route, sent_from
 from viaspline.fleet.execution.rolled_over import rolled_over
 from viaspline.fleet.execution.ways_from_rest import FleetMissions
+from viaspline.kernels.arrays import Ints
 from viaspline.kernels.fleet.dispatching import HELD_M
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.model import Mission
@@ -65,6 +67,17 @@ class FleetUnderWay:
         """With another plan; see ``carried_over``."""
         state = carried_over(self.state, self.fleet, fleet, self.short)
         return replace(self, fleet=fleet, state=state)
+
+    def _grown(self, grown: GrownFleet) -> FleetUnderWay:
+        """With a robot that has a new path and its law."""
+        state = carried_with(self.state, self.fleet, grown, self.short)
+        return replace(self, fleet=grown.fleet, state=state)
+
+    @property
+    def _patrols(self) -> Ints:
+        """The robots that never end."""
+        none = np.empty(0, np.int64)
+        return none if self.fleet.rounds is None else np.flatnonzero(self.fleet.rounds)
 
     def told(self, *events: FleetEvent) -> FleetUnderWay:
         """With something more that happened."""
@@ -169,14 +182,17 @@ class FleetUnderWay:
         plan = laid_now(fleet, member, self._sought(member.name, member.mission))
         let_in = LetIn(state.packed.progress, state.packed.promised, state.out)
         leaves = fleet.names.index(member.name) if member.name in fleet.names else None
-        laws = expected_laws(fleet, state, leaves)
+        grown = grown_fleet(fleet, member, plan, off_start)
+        met = np.union1d(grown.crossed()[0], self._patrols)
+        laws = expected_laws(fleet, state, leaves, met)
         try:
-            changed = self.along(joined_fleet(fleet, laws, let_in, member, plan, off_start))
+            changed = self._grown(joined_fleet(grown.among(laws), let_in))
         except GeometryError:  # too tight for robots that stop short: it lets all others pass first
+            laws = expected_laws(fleet, state, leaves)
             ends = laws.arrive[fleet.courses.packed.first[1:] - 1]
             last = float(ends[np.isfinite(ends)].max(initial=self.now))
-            member_last = _departing(member, last)
-            changed = self.along(joined_fleet(fleet, laws, let_in, member_last, plan, off_start))
+            grown = grown_fleet(fleet, _departing(member, last), plan, off_start)
+            changed = self._grown(joined_fleet(grown.among(laws), let_in))
         changed = replace(changed, missions=missions.with_way(member, plan))
         return changed._let_out(member).told(event)
 

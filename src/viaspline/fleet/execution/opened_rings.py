@@ -9,12 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.errors import GeometryError
-from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_orders import (
     FleetOrders,
     cycle_words,
     flow_of,
-    packed_orders,
     ring_of,
 )
 from viaspline.kernels.arrays import Flags, Floats, Ints
@@ -22,20 +20,18 @@ from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 
 
-def orders_without_rings(
-    fleet: DrivenFleet, leaders: Ints, by_second: Flags, short: Floats,
-    progress: Floats | None = None, fixed: Flags | None = None, promised: Floats | None = None,
+def without_rings(
+    orders: FleetOrders, departs: Floats, progress: Floats | None = None,
+    fixed: Flags | None = None, promised: Floats | None = None,
 ) -> FleetOrders:  # fmt: skip
     """Given orders, but for some of robots that would wait for each other for ever.
 
     Only such orders are made others whose leader hasn't been let into the crossing.
 
     Args:
-        fleet: Its laws don't matter.
-        leaders: As for ``orders_led``, as are all but the last.
-        by_second: As there.
-        short: As there.
-        progress: As there.
+        orders: With all bars; whatever sequence they have isn't looked at.
+        departs: When each robot departs [s], (n,).
+        progress: As for ``orders_led``.
         fixed: As there.
         promised: The farthest that each robot may take to be granted [m], (n,); nowhere if it isn't
             given.
@@ -43,24 +39,24 @@ def orders_without_rings(
     Raises:
         GeometryError: The orders have a cycle, and so have the others that were tried.
     """
-    packed = packed_orders(fleet, leaders, by_second, short)
+    packed, leaders, by_second = orders.packed, orders.leaders, orders.by_second
     sequence, stuck = flow_of(packed, leaders, progress, fixed)
+    may_go = np.zeros(len(stuck)) if promised is None else promised
     while (stuck >= 0).any():
-        may_go = np.zeros(len(stuck)) if promised is None else promised
         best = None
         for crossing, robot in _others_first(packed, leaders, stuck, may_go):
             other = leaders.copy()
             other[crossing] = robot
             passed, left = flow_of(packed, other, progress, fixed)
-            late = _lateness(packed, other, passed, fleet.rides.depart)
+            late = _lateness(packed, other, passed, departs)
             if best is None or (-len(passed), late) < best[:2]:
                 best = (-len(passed), late, other, passed, left)
         if best is None or len(best[3]) <= len(sequence):  # no other order lets them get farther
-            raise GeometryError(cycle_words(fleet.names, packed, stuck))
+            raise GeometryError(cycle_words(orders.names, packed, stuck))
         _, _, other, sequence, stuck = best
         by_second = by_second | (other != leaders)  # bars of its own boxes are there in any case
         leaders = other
-    return FleetOrders(fleet.names, packed, leaders, by_second, sequence)
+    return FleetOrders(orders.names, packed, leaders, by_second, sequence)
 
 
 def _others_first(

@@ -78,7 +78,7 @@ def _bar_near(place: Floats, begin: int, end: int, bar: int, passed: float) -> i
 
 
 @inlined
-def _first_bar(place: Floats, begin: int, end: int, passed: float) -> int:
+def first_bar(place: Floats, begin: int, end: int, passed: float) -> int:
     """The first bar of a robot that isn't before a place."""
     while begin < end:
         middle = (begin + end) // 2
@@ -113,7 +113,7 @@ def set_bar_times(courses: PackedCourses, alone: PackedLaws, orders: PackedOrder
             low, high = orders.first[other], orders.first[other + 1]
             if nodes[c, side] < 0:
                 nodes[c, side] = node_before(courses.distance, first, end, passed)
-                bars[c, side] = _first_bar(orders.place, low, high, passed)
+                bars[c, side] = first_bar(orders.place, low, high, passed)
             else:
                 nodes[c, side] = node_near(courses.distance, first, end, nodes[c, side], passed)
                 bars[c, side] = _bar_near(orders.place, low, high, bars[c, side], passed)
