@@ -9,8 +9,9 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.crossing_leaders import crossing_leaders
+from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.passing_order import passing_gaps
 
 TIGHT_S = 1e-3
@@ -51,31 +52,60 @@ def precedences_of(
         laws: When each robot is where.
         alone: When each would be where if it were alone.
     """
-    packed, nodes = crossings.packed, courses.packed
-    gaps = passing_gaps(nodes, packed, laws.packed)
-    leaders, _ = crossing_leaders(nodes, packed, laws.packed)
-    waits = _waits(courses, crossings, laws, alone, gaps)
-    later = (leaders == packed.robots[:, 1])[:, None]
-    ranked = np.where(later, packed.robots[:, ::-1], packed.robots).tolist()
-    places = np.where(later, packed.span[:, [3, 0]], packed.span[:, [1, 2]]).tolist()
-    names = courses.names
-    drives = np.isfinite(laws.packed.arrive[nodes.first[1:] - 1])
+    leaders, _ = crossing_leaders(courses.packed, crossings.packed, laws.packed)
+    waits = waits_at(courses, crossings, laws, alone, np.arange(len(courses.names)))
+    driven = np.flatnonzero(drive_both(courses, crossings, laws))
+    return precedences_among(courses.names, crossings.packed, leaders, waits, driven)
+
+
+def precedences_among(
+    names: tuple[str, ...], packed: PackedCrossings, leaders: Ints, waits: Floats, chosen: Ints
+) -> tuple[Precedence, ...]:
+    """Who passes first at some crossings.
+
+    Args:
+        names: Of the robots.
+        packed: The crossings.
+        leaders: Who passes each of them first, (c,).
+        waits: How much later it makes its second robot come [s], (c,).
+        chosen: Which crossings are asked for, (k,).
+    """
+    robots, span = packed.robots[chosen], packed.span[chosen]
+    later = (leaders[chosen] == robots[:, 1])[:, None]
+    ranked = np.where(later, robots[:, ::-1], robots).tolist()
+    places = np.where(later, span[:, [3, 0]], span[:, [1, 2]]).tolist()
     return tuple(
         Precedence(names[first], names[second], left, entered, waited)
         for (first, second), (left, entered), waited in zip(
-            ranked, places, waits.tolist(), strict=True
+            ranked, places, waits[chosen].tolist(), strict=True
         )
-        if drives[first] and drives[second]
     )
 
 
-def _waits(
+def drive_both(courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws) -> Flags:
+    """Whether both robots of each crossing drive, (c,)."""
+    drives = np.isfinite(laws.packed.arrive[courses.packed.first[1:] - 1])
+    robots = crossings.packed.robots
+    both: Flags = drives[robots[:, 0]] & drives[robots[:, 1]]
+    return both
+
+
+def waits_at(
     courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws,
-    gaps: Floats,
+    robots: Ints,
 ) -> Floats:  # fmt: skip
-    """How much later each crossing makes its second robot come [s], (c,)."""
+    """How much later crossings make some robots come that pass them second [s], (c,).
+
+    Args:
+        courses: The paths of the fleet.
+        crossings: Where these come near each other; boxes of other robots may be left out.
+        laws: When each robot is where.
+        alone: When each would be where if it were alone.
+        robots: Which ones, (k,).
+    """
+    gaps = passing_gaps(courses.packed, crossings.packed, laws.packed)
     waits = np.zeros(len(crossings.packed.robots))
-    for robot in range(courses.packed.reach.size):
+    for robot in robots.tolist():
         for box, lost in held_at(courses, crossings, laws, alone, gaps, robot):
             waits[crossings.packed.crossing[box]] += lost
     return waits

@@ -14,6 +14,7 @@ from viaspline.fleet.execution.fleet_orders import index_of
 from viaspline.fleet.execution.grown_fleet import grown_fleet
 from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
 from viaspline.fleet.execution.left_fleet import fleet_without
+from viaspline.fleet.execution.renewed_precedences import renewed_precedences
 from viaspline.fleet.execution.ways_from_rest import check_member, laid_from_rest
 from viaspline.fleet.execution.ways_in_the_air import laid_from_hover
 from viaspline.fleet.fleet_laws import FleetLaws
@@ -21,7 +22,7 @@ from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.laying.resting_places import RestingPlaces, rests_of
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
-from viaspline.fleet.precedences import precedences_of
+from viaspline.fleet.precedences import Precedence, precedences_of
 from viaspline.fleet.robots_at_home import certify_all
 from viaspline.fleet.space.hover_places import hovers_of
 from viaspline.fleet.timing.rides import FleetRides
@@ -124,7 +125,11 @@ def remove_robot(plan: FleetPlan, name: str) -> FleetPlan:
     if name in plan.names:
         driven = fleet_without(driven, plan.names.index(name))
     plans = {one: it for one, it in plan.plans.items() if one != name}
-    return _planned(plan, members, driven, plans, _rides(driven, plan, name))
+    rides = _rides(driven, plan, name)
+    crossings = ordered_crossings(driven.courses, driven.crossings, driven.laws)
+    precedences = precedences_of(driven.courses, crossings, driven.laws, rides.laws)
+    driven = replace(driven, crossings=crossings)
+    return _planned(plan, members, driven, plans, rides, precedences)
 
 
 def _check_nothing_moves(plan: FleetPlan) -> None:
@@ -144,12 +149,15 @@ def _with(plan: FleetPlan, member: FleetMember, members: Sequence[FleetMember]) 
     laid = _laid(plan, member)
     count = len(plan.names)
     nowhere = LetIn(np.full(count, np.inf), np.zeros(count), np.zeros(count, np.bool_))
-    joined = joined_fleet(grown_fleet(driven, member, laid), nowhere).fleet
+    grown = joined_fleet(grown_fleet(driven, member, laid), nowhere)
+    joined = grown.fleet
     robot = joined.names.index(member.name)
     rides = _rides(joined, plan, member.name)
     law = timed_trajectory(laid.trajectory, joined.courses, rides, joined.laws, robot)
     plans = {**plan.plans, member.name: replace(laid, trajectory=law)}
-    return _planned(plan, members, joined, plans, rides)
+    crossings, precedences = renewed_precedences(plan, grown, rides.laws)
+    joined = replace(joined, crossings=crossings)
+    return _planned(plan, members, joined, plans, rides, precedences)
 
 
 def _laid(plan: FleetPlan, member: FleetMember) -> AnyPlan:
@@ -226,6 +234,7 @@ def _planned(
     driven: DrivenFleet,
     plans: Mapping[str, AnyPlan],
     rides: FleetRides,
+    precedences: tuple[Precedence, ...],
 ) -> FleetPlan:
     """The plan of a fleet that was changed, proven anew as a whole."""
     fleet = Fleet.of(members, before.fleet.separation_m)
@@ -233,17 +242,16 @@ def _planned(
     certificate = certify_all(fleet, driven.courses, driven.laws)
     if patrols is not None:
         certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
-    crossings = ordered_crossings(driven.courses, driven.crossings, driven.laws)
     names = [one.name for one in members]
     return FleetPlan(
         fleet=fleet,
         plans={name: plans[name] for name in names if name in plans},
         not_served=tuple(one for one in before.not_served if one.name in set(names) - set(plans)),
         certificate=certificate,
-        precedences=precedences_of(driven.courses, crossings, driven.laws, rides.laws),
+        precedences=precedences,
         alone=dict(zip(driven.names, rides.alone.tolist(), strict=True)),
         courses=driven.courses,
-        crossings=crossings,
+        crossings=driven.crossings,
         laws=driven.laws,
         rides=rides,
         patrols=patrols,

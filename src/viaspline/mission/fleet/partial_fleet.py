@@ -128,11 +128,15 @@ def _world_of(world: WorldSpec, resolved: ResolvedFiles) -> PartialMission:
 
 def _members_of(fleet: FleetParts) -> Iterator[PartialMember]:
     """The robots of a sound fleet."""
+    # All have these default values: to make them for each robot takes longer than all else here.
+    others = dict(MissionParts.model_construct(route=Route(start=EndPoint(at=(0.0, 0.0)))))
     for i, one in enumerate(fleet.fleet):
         path: Path = ("fleet", i)
         home = path if one.asked is None else (*path, "mission")
         route = route_of(one)
-        parts = MissionParts.model_construct(route=route, spline=spline_of(one, fleet))
+        parts = MissionParts.model_construct(
+            **{**others, "route": route, "spline": spline_of(one, fleet)}
+        )
         yield PartialMember(
             path=path,
             home=home,

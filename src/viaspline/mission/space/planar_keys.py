@@ -32,10 +32,12 @@ def planar_keys_of(mission: Any) -> Iterator[Path]:
     >>> list(planar_keys_of({"robot": {"sensor": {"lidar": {"range_m": 5}}}}))
     [('robot', 'sensor', 'lidar')]
     """
+    seen: dict[Path, Any] = {(): children(mission) or {}}  # what lies at each part of a path
     for path in _REMEDIES:
-        value = mission
-        for key in path:
-            value = (children(value) or {}).get(key)
+        for k in range(1, len(path)):
+            if path[:k] not in seen:
+                seen[path[:k]] = children(seen[path[: k - 1]].get(path[k - 1])) or {}
+        value = seen[path[:-1]].get(path[-1])
         is_default = path[-1] == "prefer_clearance_m" and value == 0
         if value is not None and not is_default:
             yield path
