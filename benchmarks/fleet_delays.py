@@ -2,9 +2,9 @@
 
     python benchmarks/fleet_delays.py [robots] [runs]
 
-Rounds of 214 m in the mean, as in ``fleet_worlds.py``. Robots are slowed by up to 30 %, or halt
-once each in the mean, for 30 s. ``own`` is how late they would be if none had to wait for another.
-One delay of 20 s is told of each robot in turn; one robot more comes on another round.
+Rounds of 214 m in the mean, as in ``fleet_worlds.py``, of one lap. Robots are slowed by up to 30 %,
+or halt once each in the mean, for 30 s. ``own`` is how late they would be if none had to wait for
+another. One delay of 20 s is told of each robot in turn; one robot more comes on another round.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def fleet_of(count: int, seed: int = 0, side: float = 500.0) -> vs.Fleet:
             home = np.array(mission.route.start.at)
             if len(members) < count and all(np.hypot(*(home - one)) > HOME_M for one in homes):
                 homes.append(home)
-                route = mission.route.model_dump(exclude_unset=True)
+                route = {**mission.route.model_dump(exclude_unset=True), "laps": 1}
                 members.append({"name": f"r{len(homes)}", "robot": "rover", "route": route})
         seed += 1
     margin = fleet_worlds.MARGIN_M

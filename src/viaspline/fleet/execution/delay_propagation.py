@@ -12,7 +12,8 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.execution.fleet_orders import FleetOrders, index_of
 from viaspline.handed_in import number_from
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.fleet.delayed_arrivals import PackedLinks, delayed_arrivals, packed_links
+from viaspline.kernels.fleet.delay_links import PackedLinks, packed_links
+from viaspline.kernels.fleet.delayed_arrivals import delayed_arrivals
 
 
 @dataclass(frozen=True, eq=False)
