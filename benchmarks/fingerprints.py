@@ -3,9 +3,10 @@
     python benchmarks/fingerprints.py lay DIR [--missions 1000] [--jobs 2] [--only FAMILY]
     python benchmarks/fingerprints.py compare OLD NEW
 
-``lay`` plans or drives all examples and as many random missions of eight families, keeps the files
-in DIR, and their SHA-256 in DIR/SHA256SUMS. A refusal is a file too: its words. ``compare`` tells
-files that are the same to the byte, those in which every number is the same to 1e-9, and the rest.
+``lay`` plans or drives all examples, flights and fleets too, and as many random missions of eight
+families, keeps the files in DIR, and their SHA-256 in DIR/SHA256SUMS. A refusal is a file too: its
+words. ``compare`` tells files that are the same to the byte, those in which every number is the
+same to 1e-9, and the rest.
 Bytes are those of one machine and one numpy: lay both on the same.
 """
 
@@ -210,18 +211,52 @@ def example_jobs() -> list[tuple[str, int, bool]]:
     return [(name, 0, True) for name in names]
 
 
-def texts(mission: Any, name: str, driven: bool) -> dict[str, str]:
-    """The files of a mission, or the words of its refusal."""
-    import viaspline as vs
+def plan_text(plan: Any, name: str) -> str:
+    """What is written of a plan, in the plane or in space."""
     from viaspline.report.plan_json import plan_json
+    from viaspline.report.space.spatial_json import spatial_plan_json
+    from viaspline.space.spatial_plan import SpatialPlan
+
+    if isinstance(plan, SpatialPlan):
+        return spatial_plan_json(plan, name)
+    return plan_json(plan, name, spacing=0.1)
+
+
+def run_text(run: Any, name: str) -> str:
+    """What is written of a drive, in the plane or in space."""
     from viaspline.report.run_json import run_json
+    from viaspline.report.space.spatial_json import flight_json
+    from viaspline.space.spatial_run import SpatialRun
+
+    return flight_json(run, name) if isinstance(run, SpatialRun) else run_json(run, name)
+
+
+def fleet_texts(fleet: Any, name: str, driven: bool) -> dict[str, str]:
+    """The files of a fleet and of each of its robots."""
+    import viaspline as vs
+    from viaspline.report.fleet_json import fleet_json
+    from viaspline.report.fleet_run_json import fleet_run_json
+
+    plan = vs.plan_fleet(fleet)
+    found = {"fleet.json": fleet_json(plan, name, {robot: robot for robot in plan.plans})}
+    found |= {f"{robot}.json": plan_text(one, robot) for robot, one in plan.plans.items()}
+    if driven:
+        found["run.json"] = fleet_run_json(vs.simulate_fleet(fleet, plan=plan), name)
+    return found
+
+
+def texts(mission: Any, name: str, driven: bool) -> dict[str, str]:
+    """The files of a mission or a fleet, or the words of its refusal."""
+    import viaspline as vs
 
     found: dict[str, str] = {}
     try:
+        if isinstance(mission, vs.Fleet):
+            return fleet_texts(mission, name, driven)
         plan = vs.plan(mission)
-        found["plan.json"] = plan_json(plan, name, spacing=0.1)
+        found["plan.json"] = plan_text(plan, name)
         if driven:
-            found["run.json"] = run_json(vs.simulate(mission, plan=plan), name)
+            found["run.json"] = run_text(vs.simulate(mission, plan=plan), name)
     except vs.NoPathError as error:
         record = {"reason": error.reason, "where": error.where, "remedy": error.remedy,
                   "via": error.via, "obstacles": error.obstacles,
