@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from viaspline.fleet.laying.laying_workers import LayingWorkers
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.report.progress_bar import ProgressBar
+    from viaspline.report.results import Contents
 
 
 @dataclass(frozen=True)
@@ -151,19 +152,11 @@ def run_fleet_file(
 
             done = simulate_fleet(fleet, plan=planned, seed=seed)
         with watch.stage("report", "writing"):
-            from viaspline.report.fleet_results import (
-                fleet_contents,
-                fleet_run_contents,
-                forget_earlier,
-                planned_fleet_contents,
-                write_robots,
-            )
+            from viaspline.report.fleet_results import forget_earlier, write_robots
             from viaspline.report.results import write_all
 
             folders = write_robots(planned, target, watch.fraction)
-            contents = fleet_contents(planned, file.stem)
-            contents = {**contents, **planned_fleet_contents(fleet, target)}
-            contents |= fleet_run_contents(planned, done, file.stem, seed=seed)
+            contents = _driven_contents(fleet, planned, done, target, file.stem, seed)
             if film is not None:
                 from viaspline.report.fleet.fleet_film import FilmedFleet, film_fleet
 
@@ -183,6 +176,23 @@ def run_fleet_file(
         say_folders(folders, removed)
     end_unserved(planned)
     end_not_reached(done)
+
+
+def _driven_contents(
+    fleet: Fleet, planned: FleetPlan, done: FleetRun, target: Path, name: str, seed: int
+) -> Contents:
+    """What is written of a fleet that was planned and driven, but for its robots' folders."""
+    from viaspline.report.fleet_results import (
+        fleet_contents,
+        fleet_run_contents,
+        planned_fleet_contents,
+    )
+
+    return {
+        **fleet_contents(planned, name),
+        **planned_fleet_contents(fleet, target),
+        **fleet_run_contents(planned, done, name, seed=seed),
+    }
 
 
 def end_not_reached(done: FleetRun) -> None:

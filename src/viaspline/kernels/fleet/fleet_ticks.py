@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.dispatching import grant_of, new_dispatch, swap_orders, take_report
 from viaspline.kernels.fleet.granted_drive import (
     PackedDrive,
@@ -20,6 +20,7 @@ from viaspline.kernels.fleet.granted_drive import (
 from viaspline.kernels.fleet.order_flow import order_flow
 from viaspline.kernels.fleet.order_swaps import settle_recall
 from viaspline.kernels.fleet.packed_courses import PackedCourses
+from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 from viaspline.kernels.fleet.packed_rides import PackedRides
@@ -93,6 +94,79 @@ def _drive_tick(
     return stretches, count
 
 
+@inner
+def _hear(
+    orders: PackedOrders, dispatch: PackedDispatch, drive: PackedDrive, trouble: PackedTrouble,
+    grants: Floats, heard: Floats, tick: int, now: float,
+) -> int:  # fmt: skip
+    """Take the reports that aren't lost; how many orders were swapped for what they say."""
+    swapped = 0
+    for robot in range(grants.size):
+        if chance(trouble.seed, 2 * tick, robot) < trouble.lost:
+            continue
+        place = drive.place[robot]
+        if drive.arrived[robot] < np.inf and orders.vanishes[robot]:
+            place = np.inf
+        if take_report(dispatch, robot, place, grants[robot], heard[robot], now):
+            swapped += settle_recall(orders, dispatch, robot)
+    return swapped
+
+
+@inner
+def _grant(
+    orders: PackedOrders, dispatch: PackedDispatch, drive: PackedDrive, rides: PackedRides,
+    trouble: PackedTrouble, grants: Floats, heard: Floats, tick: int, now: float,
+) -> None:  # fmt: skip
+    """Tell robots how far they may go; one that couldn't stop any more keeps what it had."""
+    for robot in range(grants.size):
+        grant = grant_of(orders, dispatch, robot)
+        if chance(trouble.seed, 2 * tick + 1, robot) < trouble.lost:
+            continue
+        heard[robot] = now
+        room = 2.0 * rides.brake[robot] * (grant - drive.place[robot])
+        if grant >= grants[robot] or drive.square[robot] <= room:
+            grants[robot] = grant
+
+
+@inner
+def _note_swaps(
+    seen: Ints, dispatch: PackedDispatch, now: float, happened: Floats, events: int
+) -> tuple[Floats, int]:
+    """Write down whose orders have been swapped since that was done before."""
+    for c in range(seen.size):
+        if seen[c] != dispatch.leaders[c]:
+            row = (float(SWAPPED), now, float(dispatch.leaders[c]), float(seen[c]), float(c))
+            happened = _noted(happened, events, row)
+            events += 1
+            seen[c] = dispatch.leaders[c]
+    return happened, events
+
+
+@inner
+def _note_waits(
+    orders: PackedOrders, dispatch: PackedDispatch, drive: PackedDrive, grants: Floats,
+    waits: Flags, now: float, happened: Floats, events: int,
+) -> tuple[Floats, int]:  # fmt: skip
+    """Write down who has begun to wait for another, and who goes on."""
+    for robot in range(grants.size):
+        held = (
+            drive.square[robot] == 0.0
+            and drive.arrived[robot] == np.inf
+            and dispatch.head[robot] < orders.first[robot + 1]
+            and grants[robot] - drive.place[robot] <= 1e-6
+        )
+        if held != waits[robot]:
+            waits[robot] = held
+            bar = min(dispatch.head[robot], orders.place.size - 1)
+            row = (
+                float(WAITS if held else GOES_ON), now, float(robot), float(orders.other[bar]),
+                drive.place[robot],
+            )  # fmt: skip
+            happened = _noted(happened, events, row)
+            events += 1
+    return happened, events
+
+
 @kernel
 def fleet_ticks(
     courses: PackedCourses, rides: PackedRides, alone: PackedLaws, orders: PackedOrders,
@@ -132,15 +206,7 @@ def fleet_ticks(
     arrivals = 0
     while tick < longest and arrivals < bound:
         now = begin + tick * step
-        swapped = 0
-        for robot in range(count):
-            if chance(trouble.seed, 2 * tick, robot) < trouble.lost:
-                continue
-            place = drive.place[robot]
-            if drive.arrived[robot] < np.inf and orders.vanishes[robot]:
-                place = np.inf
-            if take_report(dispatch, robot, place, grants[robot], heard[robot], now):
-                swapped += settle_recall(orders, dispatch, robot)
+        swapped = _hear(orders, dispatch, drive, trouble, grants, heard, tick, now)
         if swap_every > 0 and tick % swap_every == 0:
             if is_old:
                 sequence, _ = order_flow(
@@ -149,45 +215,19 @@ def fleet_ticks(
                 is_old = False
             swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
         if swapped > 0:
-            for c in range(seen.size):
-                if seen[c] != dispatch.leaders[c]:
-                    row = (
-                        float(SWAPPED), now, float(dispatch.leaders[c]), float(seen[c]), float(c)
-                    )  # fmt: skip
-                    happened = _noted(happened, events, row)
-                    events += 1
-                    seen[c] = dispatch.leaders[c]
+            happened, events = _note_swaps(seen, dispatch, now, happened, events)
             is_old = True
-        for robot in range(count):
-            grant = grant_of(orders, dispatch, robot)
-            if chance(trouble.seed, 2 * tick + 1, robot) < trouble.lost:
-                continue
-            heard[robot] = now
-            room = 2.0 * rides.brake[robot] * (grant - drive.place[robot])
-            if grant >= grants[robot] or drive.square[robot] <= room:
-                grants[robot] = grant
+        _grant(orders, dispatch, drive, rides, trouble, grants, heard, tick, now)
         stretches, rows = _drive_tick(
             drive, courses, rides, trouble, grants, now, step, stretches, rows
+        )
+        happened, events = _note_waits(
+            orders, dispatch, drive, grants, waits, now + step, happened, events
         )
         arrivals = 0
         for robot in range(count):
             if drive.arrived[robot] < np.inf:
                 arrivals += 1
-            held = (
-                drive.square[robot] == 0.0
-                and drive.arrived[robot] == np.inf
-                and dispatch.head[robot] < orders.first[robot + 1]
-                and grants[robot] - drive.place[robot] <= 1e-6
-            )
-            if held != waits[robot]:
-                waits[robot] = held
-                bar = min(dispatch.head[robot], orders.place.size - 1)
-                row = (
-                    float(WAITS if held else GOES_ON), now + step, float(robot),
-                    float(orders.other[bar]), drive.place[robot],
-                )  # fmt: skip
-                happened = _noted(happened, events, row)
-                events += 1
         tick += 1
     return FleetTicks(
         stretches[:rows].copy(), happened[:events].copy(), drive.arrived, drive.place, now + step
