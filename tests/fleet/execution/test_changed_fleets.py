@@ -108,6 +108,28 @@ def test_a_dead_robot_is_let_no_farther_and_others_join_in_its_way_later() -> No
     assert more._state.packed.leaders.tolist() == [1]
 
 
+def test_who_dies_at_its_start_is_in_the_way_of_one_that_is_to_rest_there() -> None:
+    """It was taken to be before a crossing that begins where its path does: a contact."""
+    follower = ((40.0, -40.0), (20.0, -20.0))  # to where r1 starts
+    fleet = driven_on([CROSS[1], follower])
+    _, nav = FleetNavigator.of(fleet).step([], 0.0)
+    nav = nav.dead("r0", until_m=0.0)
+    assert nav.blocked == {"r1": "r0"}
+    commands, nav = nav.step([], 1.0)
+    stands = fleet.place_at(1, commands["r1"].granted)
+    assert np.hypot(*(stands - np.array([20.0, -20.0]))) >= 2.0
+
+
+def test_a_dead_robot_a_little_beyond_where_it_was_let_refuses_no_other_change() -> None:
+    _, nav = FleetNavigator.of(driven_on(CROSS)).step([], 0.0)
+    let = nav.step([], 0.1)[0]["r1"].granted
+    nav = nav.dead("r1", until_m=let + 0.05)
+    more = nav.with_fleet(driven_on([*CROSS, ASIDE]))
+    assert more.step([], 1.0)[0]["r2"].granted == 40.0
+    with pytest.raises(GeometryError, match=r"r2 is to pass before r1, which may have gone beyond"):
+        nav.with_fleet(driven_on([*CROSS, ((10.0, -2.5), (60.0, -2.5))], [2, 0, 1]))
+
+
 def test_who_gets_another_path_begins_it_at_its_start() -> None:
     nav = under_way([*CROSS, ASIDE], place=10.0)
     rest = ((10.0, 0.0), (10.0, 25.0))  # from where it is

@@ -25,6 +25,7 @@ from viaspline.fleet.execution.grown_orders import grown_orders
 from viaspline.fleet.execution.opened_rings import without_rings
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
+from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 
 KEPT = (
     "speeds", "heard", "arrived", "silent", "out", "places", "paths", "stations", "stands",
@@ -107,7 +108,7 @@ def _begun(
     _begin_anew(new, state, before, kept)
     packed.begin[kept < 0] = np.maximum(packed.begin[kept < 0], state.time)
     open_bars(orders.packed, packed)
-    check_let_in(orders, packed.promised, packed.progress, packed.head)
+    check_let_in(orders, packed, kept)
     swapped = swapped_events(after.names, drawn.leaders, orders.leaders, max(state.time, 0.0))
     return replace(new, time=state.time, events=(*state.events, *swapped), no_ways=state.no_ways)
 
@@ -220,21 +221,25 @@ def _passed_too_early(
     return bars[late], robot[late]
 
 
-def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats, head: Ints) -> None:
+def check_let_in(orders: FleetOrders, dispatch: PackedDispatch, kept: Ints) -> None:
     """Refuse a leader of a crossing into which the other robot has been let already.
+
+    A dead robot may be said to stand a little beyond where it was let: among those that keep their
+    paths nothing is changed by that.
 
     Args:
         orders: Who passes first where.
-        promised: The farthest that each robot may take to be granted [m], (n,).
-        progress: How far each has come at least [m], (n,); inf for one that has left the world, and
-            is in nobody's way whatever it was let into.
-        head: The first bar of each robot that isn't open, (n,).
+        dispatch: How far robots have come and may go. Who has left the world is in nobody's way
+            whatever it was let into.
+        kept: For each robot its number before if its path is the same, else -1, (n,).
 
     Raises:
         GeometryError: With who was to pass before whom.
     """
     packed = orders.packed
-    bars, robots = _passed_too_early(orders, promised, progress, head)
+    bars, robots = _passed_too_early(orders, dispatch.promised, dispatch.progress, dispatch.head)
+    is_old = dispatch.fixed[robots] & (kept[robots] >= 0) & (kept[packed.other[bars]] >= 0)
+    bars, robots = bars[~is_old], robots[~is_old]
     if bars.size:
         b = int(bars[0])
         first, second = orders.names[packed.other[b]], orders.names[int(robots[0])]

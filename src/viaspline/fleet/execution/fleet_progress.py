@@ -173,7 +173,8 @@ class FleetProgressState:
             orders.crossing[own].tolist(), orders.place[own].tolist(),
             orders.other[own].tolist(), strict=True,
         ):  # fmt: skip
-            if c not in met and packed.leaders[c] == robot and place >= until:
+            is_out = place > 0.0 and place >= until  # who begins in a crossing is in it
+            if c not in met and packed.leaders[c] == robot and is_out:
                 packed.leaders[c] = other
             met.add(c)
         return replace(state, events=(*self.events, event))
