@@ -187,6 +187,23 @@ def test_who_waits_for_a_dead_robot_goes_round_it() -> None:
     assert drive.at["r1"] == pytest.approx([20.0, 20.0])
 
 
+def test_nobody_rests_in_the_way_of_one_that_waits_for_a_dead_robot() -> None:
+    """The dead one may be carried off, and the other goes on: it touched who rested there."""
+    drive = start(*CROSS)
+    while drive.place["r0"] < 20.0:
+        drive.step()
+    drive.take(drive.nav.dead("r0", drive.place["r0"]))
+    assert drive.nav.blocked == {"r1": "r0"}
+    drive.take(drive.nav.with_robot(member("new", {"start": [30, 10], "goal": [20, 10]})))
+    assert drive.nav.blocked == {"r1": "r0", "new": "r1"}
+    drive.until(60.0, dead=("r0",))
+    drive.take(drive.nav.without("r0"))
+    while not drive.nav.reached:
+        drive.step(dead=("r0",))
+        assert np.hypot(*(drive.where()["r1"] - drive.at["new"])) >= APART_M - 1e-6
+        assert drive.time < 120.0
+
+
 def test_a_robot_joins_though_another_waits_for_a_dead_one_that_is_to_wait_for_it_farther_on() -> (
     None
 ):

@@ -24,6 +24,9 @@ def expected_laws(
 ) -> PackedLaws:  # fmt: skip
     """The laws of a fleet from now on; of robots that don't drive any more there are none.
 
+    Those who wait for one that never gets on come later than anybody else, but do come: it may be
+    carried off. So nobody is let rest in their way.
+
     Args:
         fleet: What is driven.
         state: How far it has come.
@@ -34,7 +37,6 @@ def expected_laws(
     orders, packed = state.orders.packed, state.packed
     shift, _ = expected_shifts(orders, packed.leaders, state.sequence, packed.head, packed.begin)
     alone, courses, stuck = fleet.alone, fleet.courses.packed, state.stuck(leaves)
-    for_good = stuck if leaves is None else state.stuck()
     drives = np.flatnonzero(~state.out)
     asked = drives if chosen is None else np.intersect1d(drives, chosen)
     behind_all = _last_arrival(fleet, state, shift) if (stuck[asked] >= 0).any() else 0.0
@@ -48,8 +50,6 @@ def expected_laws(
         later = _later(shift, state, robot)
         if stuck[robot] >= 0:
             later[stuck[robot] - bars.start + 1 :] += behind_all
-        if for_good[robot] >= 0:
-            later[for_good[robot] - bars.start + 1 :] = np.inf
         along, places = courses.distance[nodes], orders.place[bars]
         comes: Ints = np.searchsorted(places, along, side="left")
         goes: Ints = np.searchsorted(places, along, side="right")
