@@ -135,7 +135,8 @@ def grown_fleet(
 
 def _takes_part(robots: Ints, robot: int) -> Flags:
     """Whether a robot is one of the two of each crossing, (c,)."""
-    return (robots[:, 0] == robot) | (robots[:, 1] == robot)
+    takes_part: Flags = (robots[:, 0] == robot) | (robots[:, 1] == robot)
+    return takes_part
 
 
 def _joined_courses(at: RobotPlace, before: FleetCourses, fresh: FleetCourses) -> FleetCourses:
