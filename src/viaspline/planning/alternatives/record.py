@@ -70,6 +70,14 @@ class Account:
         A leg that was led round after its neighbour has turned the tangents at the via point
         between them; what was not chosen stays as it was weighed.
         """
+        budget = self.requirements.budget
+        if budget is None:
+            return self._entries
+        with budget.afterwards():
+            return self._entries
+
+    @property
+    def _entries(self) -> tuple[LedgerEntry, ...]:
         compared = (self._as_laid(leg) for leg in sorted(self.passed))
         entries = (entry for comparison in compared for entry in comparison.entries)
         if self.measured_in is None:

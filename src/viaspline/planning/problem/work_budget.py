@@ -7,6 +7,7 @@ would cost more than is left isn't begun.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Hashable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -203,6 +204,27 @@ class WorkBudget:
             raise
         finally:
             self.spent += one.spent
+
+    @contextmanager
+    def afterwards(self) -> Iterator[None]:
+        """What is done once the search is over has no limit, and leaves the budget as it was.
+
+        What a search found is told of when somebody asks for it, and takes some more work then.
+
+        Example:
+            >>> budget = WorkBudget(0.01, spent=0.01)
+            >>> with budget.afterwards():
+            ...     budget.spend(PROOF_S)
+            >>> budget.is_spent
+            True
+        """
+        before = vars(self).copy()
+        self.limit, self.finished = math.inf, self.finished.copy()
+        self._under_way = self._under_way.copy()
+        try:
+            yield
+        finally:
+            vars(self).update(before)
 
     def spend_on_part(self, cost: float) -> None:
         """Take off what a step costs of a part that the search takes up again [s].
