@@ -62,6 +62,7 @@ def test_a_robot_goes_back_to_a_niche_behind_it_and_lets_what_comes_pass() -> No
     assert plan.certificate.holds
     assert plan.timed is not None
     assert [one.is_searched for one in plan.timed.candidates if one.chosen] == [True]
+    assert plan.drivability.curvature_jumps == 0
 
 
 def test_a_robot_with_a_turning_circle_is_not_led_back_on_a_path_that_it_cannot_drive() -> None:

@@ -111,12 +111,15 @@ class _Tried:
 
 
 def _searched(problem: TimedProblem, tried: _Tried) -> _Tried:
-    """What was timed, and paths that are searched with their times, until enough have a law."""
+    """What was timed, and drives that are searched with their times, until enough have a law."""
     found = 0
-    for taken in searched_paths(problem):
-        outcome = _law(problem, taken)
-        tried = tried.and_then(problem, taken, outcome)
-        found += isinstance(outcome, Found)
+    for drive in searched_paths(problem):
+        for taken in drive:
+            outcome = _law(problem, taken)
+            tried = tried.and_then(problem, taken, outcome)
+            if isinstance(outcome, Found):
+                found += 1
+                break
         if found == ENOUGH_SEARCHED:
             break
     return tried

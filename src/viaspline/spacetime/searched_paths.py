@@ -7,7 +7,7 @@ robot may have to go back, or across: that shows only where places and times are
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -23,6 +23,7 @@ from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.via_sequence import RouteVia, via_sequence_of
 from viaspline.spacetime.alternatives import Alternative
+from viaspline.spacetime.smoothed_drive import places_along, smooth_spans
 from viaspline.spacetime.timed_problem import TimedProblem
 
 QUANTA = 2
@@ -31,8 +32,6 @@ LONGEST_STEP_S = 1.0
 """A step is no longer, however slowly the robot speeds up [s]."""
 MAX_LEVELS = 60
 """As many levels of speed as a search tells apart."""
-STILL_M = 1e-9
-"""A shorter way is none."""
 
 
 @dataclass(frozen=True)
@@ -63,11 +62,19 @@ EFFORTS = (
 """One after the other: in the open, the same more closely, out of a dead end, through a gap."""
 
 
-def searched_paths(problem: TimedProblem) -> Iterator[Alternative]:
-    """Paths of drives from rest to rest that pass what moves, found by ever closer looks.
+FOLLOWED = (2, 6)
+"""Into so many parts the thrusts of a drive are cut by the places through which its path is laid:
+the more there are the nearer it is to what was searched, and the sharper."""
+
+
+def searched_paths(problem: TimedProblem) -> Iterator[Iterator[Alternative]]:
+    """Drives from rest to rest that pass what moves, found by ever closer looks.
 
     None where a path has more to keep than its clearance: a turning circle, a heading, sides, a
     corridor, a round, height.
+
+    Yields:
+        For each drive the paths along it that are clear, the smoothest first.
     """
     if not is_searchable(problem):
         return
@@ -75,10 +82,14 @@ def searched_paths(problem: TimedProblem) -> Iterator[Alternative]:
         if not problem.affords_search(effort.states):
             continue
         drives = _drives(problem, effort)
-        if drives is None:
-            continue
+        if drives is not None:
+            yield _paths_along(problem, drives)
+
+
+def _paths_along(problem: TimedProblem, drives: Sequence[Floats]) -> Iterator[Alternative]:
+    for pieces in FOLLOWED:
         try:
-            path = _path_along(drives, via_sequence_of(problem.mission).vias)
+            path = _path_along(drives, via_sequence_of(problem.mission).vias, pieces)
             free = problem.free_law(path)
         except GeometryError:
             continue
@@ -139,41 +150,18 @@ def _lattice(problem: TimedProblem, effort: ThrustEffort, begin: float) -> Thrus
     return ThrustLattice(begin, step, quantum, max(levels, 1), QUANTA, effort.cell)
 
 
-def _path_along(drives: list[Floats], vias: tuple[RouteVia, ...]) -> Path:
+def _path_along(drives: Sequence[Floats], vias: tuple[RouteVia, ...], pieces: int) -> Path:
     """The path along drives over the legs between via points."""
-    spans: list[Floats] = []
-    places = []
-    for via, states in zip(vias, drives, strict=False):
-        places.append(_placed(via, len(spans)))
-        for k, span in enumerate(_spans_along(states)):
-            if k > 0:
-                at = tuple(span[0].tolist())
-                places.append(PathVia("detour", at, "detour", float(len(spans))))
-            spans.append(span)
-    places.append(_placed(vias[-1], len(spans)))
-    return Path(np.array(spans), places)
+    places = places_along(drives, pieces)
+    on_it = [
+        PathVia("detour", tuple(place.at.tolist()), "detour", float(u))
+        if place.via is None
+        else _placed(vias[place.via], u)
+        for u, place in enumerate(places)
+        if place.via is not None or place.is_thrust
+    ]
+    return Path(smooth_spans(np.array([place.at for place in places])), on_it)
 
 
 def _placed(via: RouteVia, span: int) -> PathVia:
     return PathVia(via.name, tuple(via.at.tolist()), "user", float(span), via.dwell, via.index)
-
-
-def _spans_along(states: Floats) -> Iterator[Floats]:
-    """Bézier control polygons along states [m], (4, 2) each.
-
-    Where the robot is under way at both ends a span is the very cubic that it drives in time; from
-    rest it leaves straight towards the other end's tangent.
-    """
-    for first, last in pairwise(states):
-        lasts = last[0] - first[0]
-        p, q = first[1:3], last[1:3]
-        if math.dist(p, q) <= STILL_M:
-            continue
-        p1, q1 = p + first[3:] * lasts / 3.0, q - last[3:] * lasts / 3.0
-        if not first[3:].any() and not last[3:].any():
-            p1, q1 = p + (q - p) / 3.0, q - (q - p) / 3.0
-        elif not first[3:].any():
-            p1 = 0.5 * (p + q1)
-        elif not last[3:].any():
-            q1 = 0.5 * (q + p1)
-        yield np.array([p, p1, q1, q])
