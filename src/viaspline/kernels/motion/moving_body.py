@@ -4,8 +4,8 @@ The body is taken as it is in the middle of that time. Until its ends no point o
 as seen from the obstacle, than its reference point and the turns of both allow.
 
 Where the path has a corner the body turns on the spot, the short way, at any time while it is
-there; at a cusp, where no bound of the curvature holds, it may turn either way, and counts as the
-disc that it turns in.
+there; at a cusp it may turn either way, and counts as the disc that it turns in. Where it turns far
+within a short way, at what is nearly a cusp, it counts in all headings that it has there.
 
 Tested through ``trajectory/test_moving_certificate``.
 """
@@ -19,7 +19,8 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.footprint_pose import outer_radius
 from viaspline.kernels.jit import inner
-from viaspline.kernels.motion.motion_pairs import OBSTACLE, PIECE, SHIFT
+from viaspline.kernels.motion.body_turns import has_cusp, is_at_cusp, turns_between
+from viaspline.kernels.motion.motion_pairs import OBSTACLE, PIECE, SHIFT, UPPER
 from viaspline.kernels.motion.moving_distance import uncertainty
 from viaspline.kernels.motion.moving_gap import relative_line
 from viaspline.kernels.motion.packed_motion import (
@@ -64,14 +65,15 @@ def _pose_gap(
 
 @inner
 def _sweep_gap(
-    motion: PackedMotion, i: int, body: Floats, x: float, y: float, first: float, turn: float
-) -> tuple[float, float]:
-    """The least distance in a turn on the spot [m] and the heading then [rad].
+    motion: PackedMotion, i: int, body: Floats, x: float, y: float, first: float, turn: float,
+    limit: float,
+) -> tuple[float, float]:  # fmt: skip
+    """The least distance in a turn on the spot [m], at most the limit, and the heading then [rad].
 
     It may be SWEEP_STEP_M less.
     """
     outer = outer_radius(body)
-    best = np.inf
+    best = limit
     at = first
     turned = 0.0
     while True:
@@ -164,6 +166,11 @@ def body_bounds(
     if corners > 1:
         return -np.inf, np.inf, 0.0, begin
     instant = 0.5 * (begin + end)
+    cusp = math.isnan(held) and has_cusp(bends, pair[U0], pair[U1])
+    if cusp and corners == 0 and is_at_cusp(bends, pair[U0], pair[U1]):
+        u, _, _ = place_at(path, instant)
+        most = uncertainty(motion, i, begin)
+        return -np.inf, max(pair[UPPER] - outer, -most), _heading_of(path.rows, u), instant
     if corners == 1 and abs(pair[U0] - joint) <= AT_JOINT:
         instant = begin
     elif corners == 1 and abs(pair[U1] - joint) <= AT_JOINT:
@@ -175,7 +182,8 @@ def body_bounds(
     apart = math.sqrt((bx - ax) ** 2 + (by - ay) ** 2)
     turn = abs(piece[TURNING]) * (end - begin)
     share = 0.5 if corners == 0 else 1.0
-    moves = share * (apart + turn * motion.reaches[i]) + 2.0 * pair[SAG] + swing * outer
+    shifts = share * (apart + turn * motion.reaches[i]) + 2.0 * pair[SAG]
+    moves = np.inf if cusp else shifts + swing * outer
     most = uncertainty(motion, i, end)
     then = uncertainty(motion, i, instant)
     # the pose, in the obstacle's frame
@@ -183,12 +191,13 @@ def body_bounds(
     frame = piece[HEADING] + piece[TURNING] * (instant - shift - piece[KNOWN])
     c, s = math.cos(frame), math.sin(frame)
     x, y = c * ax + s * ay, c * ay - s * ax
+    limit = max(enough + moves + most, 0.0) + 2.0 * SWEEP_STEP_M
     if corners == 1:
         before, swept = _turn_at(path.rows, joint % bends.shape[0])
-        gap, heading = _sweep_gap(motion, i, body, x, y, before - frame, swept)
+        gap, heading = _sweep_gap(motion, i, body, x, y, before - frame, swept, limit)
         lower = max(gap - SWEEP_STEP_M - moves, 0.0) - most
         if abs(u - joint) <= AT_JOINT:
-            return lower, gap - then, heading + frame, instant
+            return lower, gap - then if gap < limit else np.inf, heading + frame, instant
         heading = _heading_of(path.rows, u)
         return (
             lower,
@@ -196,6 +205,17 @@ def body_bounds(
             heading,
             instant,
         )
+    if shifts <= SWEEP_STEP_M < swing * outer and not cusp:
+        right, left = turns_between(path.rows, pair[U0], pair[U1])
+        if not math.isnan(right):
+            first = _heading_of(path.rows, pair[U0]) + right
+            limit = max(enough + shifts + most, 0.0) + 2.0 * SWEEP_STEP_M
+            gap, heading = _sweep_gap(
+                motion, i, body, x, y, first - frame, left - right, limit
+            )  # fmt: skip
+            lower = max(gap - SWEEP_STEP_M - shifts, 0.0) - most
+            upper = gap + shifts - uncertainty(motion, i, begin)
+            return lower, upper if gap < limit else np.inf, heading + frame, instant
     heading = held if not math.isnan(held) else _heading_of(path.rows, u)
     limit = enough + moves + most
     gap = _pose_gap(motion, i, body, x, y, heading - frame, max(limit, 0.0))

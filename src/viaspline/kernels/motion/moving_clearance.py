@@ -14,13 +14,16 @@ Tested through ``trajectory/test_moving_certificate``.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.footprint_pose import outer_radius
 from viaspline.kernels.growable import sized_floats
 from viaspline.kernels.heap import Heap, pop, push
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, inner, kernel
+from viaspline.kernels.motion.body_turns import mark_cusps
 from viaspline.kernels.motion.motion_pairs import (
     FACING,
     LOWER,
@@ -38,7 +41,7 @@ from viaspline.kernels.motion.motion_pairs import (
     place_ends,
 )
 from viaspline.kernels.motion.moving_body import body_bounds
-from viaspline.kernels.motion.moving_distance import piece_distance
+from viaspline.kernels.motion.moving_distance import piece_distance, uncertainty
 from viaspline.kernels.motion.moving_gap import is_circle, nearest_share
 from viaspline.kernels.motion.packed_motion import PackedMotion
 from viaspline.kernels.motion.path_bends import bends_of
@@ -88,7 +91,9 @@ def _bound(
         return
     outer = outer_radius(body)
     bound_pair(motion, pair, enough + outer)
-    pair[LOWER] -= outer
+    i = int(pair[OBSTACLE])  # overlaps count as 0
+    pair[LOWER] = max(pair[LOWER] - outer, -uncertainty(motion, i, pair[END]))
+    pair[UPPER] = max(pair[UPPER], -uncertainty(motion, i, pair[BEGIN]))
     if pair[LOWER] < enough:
         lower, pair[UPPER], pair[FACING], pair[REACHED] = body_bounds(
             path, motion, bends, body, held, pair, enough
@@ -105,11 +110,21 @@ def _with_room(heap: Heap, room: int) -> Heap:
     return larger
 
 
+@inlined
+def _is_instant(pair: Floats) -> bool:
+    return float(pair[END] - pair[BEGIN]) <= SHORTEST_S
+
+
 @inner
 def _sharpened(path: TimedPath, bends: Floats, pairs: Floats, k: int, size: int) -> int:
-    """Put the ends of a rough pair where they are, or halve it into row ``size``; the new size."""
+    """Put the ends of a rough pair where they are, or halve it into row ``size``; the new size.
+
+    An instant stays as it is: of a body only the disc round it may have been looked at so far.
+    """
     if is_rough(pairs[k]):
         place_ends(path, bends, pairs[k])
+        return size
+    if _is_instant(pairs[k]):
         return size
     halve_pair(path, bends, pairs, k, size)
     return size + 1
@@ -140,7 +155,8 @@ def _refined(
         if _settled(least, upper, tolerance, required):
             return min(lower, least), upper, pairs
         k = pop(heap)
-        if pairs[k, END] - pairs[k, BEGIN] <= SHORTEST_S and not is_rough(pairs[k]):
+        looked_at = body.shape[0] == 1 or not math.isnan(pairs[k, FACING])
+        if looked_at and _is_instant(pairs[k]) and not is_rough(pairs[k]):
             lower = min(lower, least)
             continue
         if size == room:
@@ -228,6 +244,8 @@ def moving_tightest(
     """
     bends = bends_of(path)
     most = FIRST_SAG_SHARE * path.along[path.along.size - 1]
+    if body.shape[0] > 1 and math.isnan(held):
+        mark_cusps(path.rows, bends)
     strides, count = strides_of(path, bends, hold, most)
     outer = outer_radius(body)
     pairs, size, others, best = pairs_of(motion, strides, count, outer, -np.inf)

@@ -25,7 +25,9 @@ from viaspline.kernels.motion.timed_path import TIME, TimedPath, law_bounds
 
 SHARPEST: Final = 0  # bound of the curvature of a span [1/m]
 CORNER: Final = 1  # by how much the direction jumps where it begins: the difference of unit vectors
-BEND_COLUMNS: Final = 2
+FIRST_CUSP: Final = 2  # where in it a span stands still and goes back, nan: nowhere, or not known;
+LAST_CUSP: Final = 3  # see ``body_turns``
+BEND_COLUMNS: Final = 4
 
 ROUNDING_SHARE = 1e-13  # of its factors, below which a cross product is only rounding
 JOINT_SHARE = 1e-12  # of a span, within which a place is at its end
@@ -105,13 +107,14 @@ def towards(rows: Floats, k: int, last: bool, out: Floats) -> None:
 
 @inner
 def bends_of(path: TimedPath) -> Floats:
-    """SHARPEST and CORNER of every span, (m, BEND_COLUMNS)."""
+    """SHARPEST and CORNER of every span, no cusps, (m, BEND_COLUMNS)."""
     rows = path.rows
     count = rows.shape[0] - 1
     bends = np.zeros((count, BEND_COLUMNS))
     before = np.zeros(rows.shape[2])
     after = np.zeros(rows.shape[2])
     for k in range(count):
+        bends[k, FIRST_CUSP] = bends[k, LAST_CUSP] = np.nan
         bends[k, SHARPEST] = sharpest(rows, k, 0.0, 1.0)
         if k > 0 or path.closed:
             towards(rows, k - 1 if k > 0 else count - 1, True, before)
