@@ -14,6 +14,7 @@ import numpy as np
 from viaspline.curve.path import GUIDE, Path
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import curvature_profile as profile_kernels
+from viaspline.kernels.curve.cusps import SAME_CUSP
 from viaspline.kernels.timing import across
 from viaspline.machine.drivability import (
     BENT_1PM,
@@ -25,7 +26,13 @@ from viaspline.machine.drivability import (
 )
 from viaspline.machine.drivability_verdict import place_slip, reasons_against
 from viaspline.machine.machine_limits import limits_of
-from viaspline.machine.turns_on_spot import SAME_DISTANCE_M, corners, seam_corner
+from viaspline.machine.turns_on_spot import (
+    SAME_DISTANCE_M,
+    beside_cusps_of,
+    corners,
+    cusps_of,
+    seam_corner,
+)
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import NOTHING, World
@@ -135,13 +142,26 @@ class _Drive:
         """Rows of u, curvature and span, between which it only rises or falls, shape (n, 3)."""
         return profile_kernels.curvature_profile(self.path.spans)
 
-    @property
+    @cached_property
+    def cusps(self) -> Floats:
+        """From where to where it turns on the spot inside of spans, as parameters, shape (k, 2)."""
+        at = cusps_of(self.path)
+        beside = beside_cusps_of(self.path, at)
+        return np.column_stack((at - beside, at + beside))
+
+    @cached_property
     def sharpest(self) -> tuple[PathPlace | None, float]:
         """Where the path is sharpest, and its radius there [m]."""
-        u, curvature, _ = self.nodes[int(np.argmax(np.abs(self.nodes[:, 1])))].tolist()
-        if curvature == 0.0:
+        u, bends = self.nodes[:, 0], np.abs(self.nodes[:, 1])
+        for first, last in self.cusps:
+            bends[(u >= first) & (u <= last)] = 0.0
+        nearly = self.cusps[np.diff(self.cusps, axis=1)[:, 0] > 2.5 * SAME_CUSP].ravel()
+        u = np.append(u, nearly)  # a path is sharpest where it turns, and next to that
+        bends = np.append(bends, np.abs(self.path.curvature(nearly)))
+        sharpest = int(np.argmax(bends))
+        if bends[sharpest] == 0.0:
             return None, math.inf
-        return self.place(u), 1.0 / abs(curvature)
+        return self.place(float(u[sharpest])), 1.0 / float(bends[sharpest])
 
     @property
     def sign_changes(self) -> int:
@@ -164,7 +184,7 @@ class _Drive:
 
     @property
     def near_cusps(self) -> tuple[NearCusp, ...]:
-        """Stretches that are sharper than the robot's own circle and turn far."""
+        """Stretches that are sharper than the robot's own circle and turn far, but not at once."""
         radius = least_radius(self.robot)
         if radius <= 0.0 or self.sharpest[1] >= radius:
             return ()
@@ -172,6 +192,8 @@ class _Drive:
         rows = profile_kernels.sharp_stretches(spans, nodes, 1.0 / radius)
         found = []
         for first, last, peak, turn in rows[rows[:, profile_kernels.TURN] >= NEAR_CUSP_RAD]:
+            if ((self.cusps[:, 0] >= first) & (self.cusps[:, 1] <= last)).any():
+                continue
             length = float(self.path.distance(last) - self.path.distance(first))
             inside = (nodes[:, 0] >= first) & (nodes[:, 0] <= last) & (nodes[:, 1] == peak)
             u = float(nodes[inside][0, 0]) if inside.any() else float(first)
@@ -202,11 +224,16 @@ class _Drive:
 
     def _slowest(self, distance: float) -> float:
         """The least speed about a corner [m/s]: a cusp lies on a very short arc."""
-        around = distance + SAME_DISTANCE_M * np.array([-1.0, 0.0, 1.0])
-        least = float(self.trajectory.speed_at(around).min())
+        around = np.concatenate((
+            distance + SAME_DISTANCE_M * np.array([-1.0, 0.0, 1.0]),
+            *(ends for ends in np.asarray(self.path.distance(self.cusps)).reshape(-1, 2)
+              if ends[0] <= distance <= ends[1]),
+        ))  # fmt: skip
         points = self.trajectory.distances
         rests = points[self.trajectory.speeds == 0.0]
-        return 0.0 if np.any(np.abs(rests - distance) <= SAME_DISTANCE_M) else least
+        if np.any((rests >= around.min()) & (rests <= around.max())):
+            return 0.0
+        return float(self.trajectory.speed_at(around).min())
 
     def _is_asked(self, distance: float) -> bool:
         where = self.robot.turns_on_spot
@@ -233,15 +260,20 @@ class _Drive:
 
     @cached_property
     def _cells(self) -> Floats:
-        """Parts of the path that lie on one span and on one piece of the law, shape (n, 5)."""
+        """Parts of the path that lie on one span and on one piece of the law, shape (n, 5).
+
+        What it turns on the spot is none of it.
+        """
         path, distances = self.path, self.trajectory.distances
-        joints = np.arange(len(path.spans) + 1.0)
+        joints = np.concatenate((np.arange(len(path.spans) + 1.0), self.cusps.ravel()))
         at_joints = np.asarray(path.distance(joints))
         s = np.concatenate((distances, at_joints))
         u = np.concatenate((path.parameter(np.clip(distances, 0.0, path.length)), joints))
         order = np.argsort(u, kind="stable")
         s, u = s[order], u[order]
-        wide = np.flatnonzero((np.diff(u) > 0.0) & (np.diff(s) > 0.0))
+        turns = [(u[:-1] >= first) & (u[1:] <= last) for first, last in self.cusps]
+        drives = ~np.any(turns, axis=0) if turns else True
+        wide = np.flatnonzero((np.diff(u) > 0.0) & (np.diff(s) > 0.0) & drives)
         piece = np.searchsorted(distances, 0.5 * (s[wide] + s[wide + 1]), side="right") - 1
         piece = np.clip(piece, 0, len(distances) - 2)
         begin = distances[piece]

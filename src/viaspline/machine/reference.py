@@ -8,10 +8,9 @@ from numpy.typing import NDArray
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cusps import SAME_CUSP
 from viaspline.kernels.tracking.control_law import PAST_CORNER_M
 from viaspline.kernels.tracking.reference_path import ReferencePath
-from viaspline.machine.turns_on_spot import cusps_of
+from viaspline.machine.turns_on_spot import beside_cusps_of, cusps_of
 
 MAX_SPACING_M, MAX_TURN_RAD = 0.25, 0.03
 """From one point to the next at most, and turning between them [m], [rad]."""
@@ -20,10 +19,7 @@ MIN_POINTS, MAX_POINTS = 2, 400
 """On a span."""
 
 BEFORE_END = 1e-9
-"""A heading at the end of a span is looked up so far before it, in the span's parameter,"""
-
-BESIDE_CUSP = SAME_CUSP
-"""and those at a cusp inside of a span so far before and after it."""
+"""A heading at the end of a span is looked up so far before it, in the span's parameter."""
 
 CUSP_CURVATURE_PER_M = 100.0
 """Curvatures beyond this are those of a cusp [1/m]."""
@@ -89,8 +85,11 @@ def _with_cusps(path: PiecewiseCubic, u: Floats, inside: Floats) -> tuple[Floats
     back = cusps_of(path)
     if not back.size:
         return u, inside
+    apart = beside_cusps_of(path, back)
+    turns = np.abs(u[:, None] - back) < apart
+    u, inside = u[~turns.any(axis=1)], inside[~turns.any(axis=1)]
     at = np.searchsorted(u, np.repeat(back, 2))
-    beside = np.column_stack((back - BESIDE_CUSP, back + BESIDE_CUSP)).ravel()
+    beside = np.column_stack((back - apart, back + apart)).ravel()
     return np.insert(u, at, np.repeat(back, 2)), np.insert(inside, at, beside)
 
 

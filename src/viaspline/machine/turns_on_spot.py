@@ -10,7 +10,7 @@ import numpy as np
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cusps import cusps
+from viaspline.kernels.curve.cusps import SAME_CUSP, beside_cusps, cusps
 from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.machine.robot_model import drive_model_of, is_driven
 from viaspline.mission.robot_parts import RobotSpec
@@ -54,13 +54,15 @@ def corners(path: PiecewiseCubic) -> tuple[Floats, Floats]:
     if not found.size and not back.size:
         return np.empty(0), np.empty(0)
     u = np.concatenate((index[found + 1].astype(float), back))
-    angles = np.concatenate((jumps[found], np.full(back.size, np.pi)))
+    angles = np.concatenate((jumps[found], _turns_at(path, back)))
     order = np.argsort(u, kind="stable")
     return np.atleast_1d(np.asarray(path.distance(u[order]))), angles[order]
 
 
 def cusps_of(path: PiecewiseCubic) -> Floats:
     """Parameters of the cusps inside of the spans of a path, in order, shape (k,).
+
+    What turns by more than a right angle within a millimetre is one.
 
     Args:
         path: Of its curves in space, the ground track counts.
@@ -70,6 +72,25 @@ def cusps_of(path: PiecewiseCubic) -> Floats:
         [0.5]
     """
     return cusps(np.array(path.spans[:, :, :2], order="C"))  # numba compiles for one kind
+
+
+def beside_cusps_of(path: PiecewiseCubic, at: Floats) -> Floats:
+    """How far in the parameter before and after its cusps a path looks as it comes and goes, (k,).
+
+    Args:
+        path: Of its curves in space, the ground track counts.
+        at: From ``cusps_of``.
+    """
+    return beside_cusps(np.array(path.spans[:, :, :2], order="C"), at)
+
+
+def _turns_at(path: PiecewiseCubic, at: Floats) -> Floats:
+    """By how much a path turns at its cusps [rad], (k,): at a true one by half a turn."""
+    beside = beside_cusps_of(path, at)
+    turns = np.asarray(path.heading(at + beside)) - np.asarray(path.heading(at - beside))
+    turns = np.remainder(turns + np.pi, 2.0 * np.pi) - np.pi
+    found: Floats = np.where(beside == SAME_CUSP, np.pi, turns)
+    return found
 
 
 def seam_corner(path: PiecewiseCubic) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.kernels.timing.arc_caps import bend_caps
@@ -29,6 +29,7 @@ def curvature(span: np.ndarray, u: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("dimension", [2, 3])
 @given(seed=seeds)
+@example(seed=6362369)
 @settings(deadline=None, max_examples=25)
 def test_the_cap_of_an_arc_is_below_what_its_curvature_allows(dimension: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -38,11 +39,15 @@ def test_the_cap_of_an_arc_is_below_what_its_curvature_allows(dimension: int, se
     speed = np.linalg.norm(d1, axis=1)
     along = np.concatenate(([0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(u))))
     distances, caps, rests = bend_caps(span[None], along[[0, -1]], 0.5, np.inf, 1.0, 4.0, 1.1)
-    assert not rests.any()
     assert np.all(np.diff(distances) > 0)
+    turned = np.zeros(len(along), bool)
+    for rest in distances[rests]:  # it turns by more than a right angle within a millimetre
+        turned |= np.abs(along - rest) < 1e-3
+        before, after = np.searchsorted(along, [rest - 6e-4, rest + 6e-4]) + [-1, 0]
+        assert d1[before] @ d1[after] < 0.0
     arc = np.clip(np.searchsorted(distances, along) - 1, 0, len(caps) - 1)
     edge = np.abs(along - distances[arc]) < 1e-4
-    edge |= np.abs(along - distances[arc + 1]) < 1e-4
+    edge |= turned | (np.abs(along - distances[arc + 1]) < 1e-4)
     allowed = np.minimum(4.0, 0.5 / np.maximum(curvature(span, u), 1e-300))
     assert np.all(caps[arc][~edge] <= allowed[~edge] * (1 + 1e-6))
 

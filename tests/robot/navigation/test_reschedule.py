@@ -109,7 +109,7 @@ def test_a_robot_that_stands_turns_before_it_leaves_though_its_law_is_found_anew
         assert float(nav.trajectory.time_at(1e-3)) > STEP * tick + angle / 1.0
 
 
-@pytest.mark.parametrize("beside", [1e-5, 1e-4, 1e-3, 1e-2])
+@pytest.mark.parametrize("beside", [1e-5, 1e-4, 1e-3, 1e-2, 0.2, 0.5])
 def test_a_robot_leaves_what_is_nearly_a_cusp_when_it_looks_as_its_controller_wants(
     beside: float,
 ) -> None:
@@ -132,7 +132,8 @@ def test_a_robot_leaves_what_is_nearly_a_cusp_when_it_looks_as_its_controller_wa
         law = trajectory_within_sight(
             nav._task, progress, state.knowledge, state.schedule, 0.0, path=path, turns=()
         )
-        assert not [stop for stop in law.stations if abs(stop.distance - distance) < 1e-5]
+        here = [stop for stop in law.stations if abs(stop.distance - distance) < 1e-6]
+        assert not here  # it may turn where the path does, ahead of it
 
 
 def test_one_that_brakes_at_once_is_where_its_old_law_has_it_as_long_as_it_is_committed(

@@ -3,7 +3,8 @@
 P' is a quadratic, so its direction only turns one way between the places where P' × P'' is zero,
 and by what the legs of its control polygon turn, each by less than half a turn.
 
-At a cusp the path goes back the way it came, and the body turns half round, on either side.
+At a cusp the path goes back the way it came, and the body turns half round, on either side. What is
+as good as one it turns the way of the path, at any time while it is there.
 """
 
 from __future__ import annotations
@@ -13,9 +14,9 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cusps import cusps
+from viaspline.kernels.curve.cusps import SAME_CUSP, beside_cusps, cusps
 from viaspline.kernels.jit import inlined, inner
-from viaspline.kernels.motion.path_bends import FIRST_CUSP, LAST_CUSP
+from viaspline.kernels.motion.path_bends import BESIDE_FIRST, BESIDE_LAST, FIRST_CUSP, LAST_CUSP
 
 AT_CUSP = (
     1e-4  # of a span, within which a body may still turn at a cusp: some nanometres of its way
@@ -35,32 +36,57 @@ def mark_cusps(rows: Floats, bends: Floats) -> None:
             spans[k, 1, i] = rows[k, 0, i] + rows[k, 1, i] / 3.0
             spans[k, 2, i] = spans[k, 1, i] + (rows[k, 1, i] + rows[k, 2, i]) / 3.0
             spans[k, 3, i] = rows[k, 0, i] + rows[k, 1, i] + rows[k, 2, i] + rows[k, 3, i]
-    for u in cusps(spans):
-        k = int(u)
+    at = cusps(spans)
+    beside = beside_cusps(spans, at)
+    for i in range(at.size):
+        k = int(at[i])
         if math.isnan(bends[k, FIRST_CUSP]):
-            bends[k, FIRST_CUSP] = u - k
-        bends[k, LAST_CUSP] = u - k
+            bends[k, FIRST_CUSP], bends[k, BESIDE_FIRST] = at[i] - k, beside[i]
+        else:
+            bends[k, LAST_CUSP], bends[k, BESIDE_LAST] = at[i] - k, beside[i]
+
+
+@inlined
+def _cusp(bends: Floats, k: int, j: int) -> tuple[float, float]:
+    """A cusp of a span by its parameter, nan for none, and how far it turns about it."""
+    row = k % bends.shape[0]
+    return k + bends[row, FIRST_CUSP + j], bends[row, BESIDE_FIRST + j]
+
+
+@inner
+def with_turns_at(bends: Floats, start: float, end: float) -> tuple[float, float]:
+    """From where to where a body turns that is between two parameters.
+
+    That is farther where it is as good as at a cusp.
+    """
+    first, last = start, end
+    for k in range(math.floor(start), math.floor(end) + 1):
+        for j in range(2):
+            cusp, beside = _cusp(bends, k, j)
+            if beside > SAME_CUSP and start <= cusp + beside and end >= cusp - beside:
+                first, last = min(first, cusp - beside), max(last, cusp + beside)
+    return first, last
 
 
 @inner
 def is_at_cusp(bends: Floats, start: float, end: float) -> bool:
-    """Whether all between two parameters is at one cusp."""
-    count = bends.shape[0]
+    """Whether all between two parameters is at one true cusp."""
     for k in range(math.floor(start - AT_CUSP), math.floor(end + AT_CUSP) + 1):
-        for column in (FIRST_CUSP, LAST_CUSP):
-            cusp = k + bends[k % count, column]
-            if start >= cusp - AT_CUSP and end <= cusp + AT_CUSP:
+        for j in range(2):
+            cusp, beside = _cusp(bends, k, j)
+            is_true = beside <= SAME_CUSP
+            if is_true and start >= cusp - AT_CUSP and end <= cusp + AT_CUSP:
                 return True
     return False
 
 
 @inner
 def has_cusp(bends: Floats, start: float, end: float) -> bool:
-    """Whether there is a cusp between two parameters, or so near that the body may turn at it."""
-    count = bends.shape[0]
+    """Whether a true cusp is between two parameters, or so near that the body may turn at it."""
     for k in range(math.floor(start - AT_CUSP), math.floor(end + AT_CUSP) + 1):
-        for column in (FIRST_CUSP, LAST_CUSP):
-            if start - AT_CUSP <= k + bends[k % count, column] <= end + AT_CUSP:
+        for j in range(2):
+            cusp, beside = _cusp(bends, k, j)
+            if beside <= SAME_CUSP and start - AT_CUSP <= cusp <= end + AT_CUSP:
                 return True
     return False
 

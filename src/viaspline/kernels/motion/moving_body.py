@@ -19,7 +19,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.footprint_pose import outer_radius
 from viaspline.kernels.jit import inner
-from viaspline.kernels.motion.body_turns import has_cusp, is_at_cusp, turns_between
+from viaspline.kernels.motion.body_turns import has_cusp, is_at_cusp, turns_between, with_turns_at
 from viaspline.kernels.motion.motion_pairs import OBSTACLE, PIECE, SHIFT, UPPER
 from viaspline.kernels.motion.moving_distance import uncertainty
 from viaspline.kernels.motion.moving_gap import relative_line
@@ -182,8 +182,13 @@ def body_bounds(
     apart = math.sqrt((bx - ax) ** 2 + (by - ay) ** 2)
     turn = abs(piece[TURNING]) * (end - begin)
     share = 0.5 if corners == 0 else 1.0
+    turns = cusp
+    from_u, to_u = pair[U0], pair[U1]
+    if math.isnan(held):
+        from_u, to_u = with_turns_at(bends, from_u, to_u)
+        turns |= from_u < pair[U0] or to_u > pair[U1]
     shifts = share * (apart + turn * motion.reaches[i]) + 2.0 * pair[SAG]
-    moves = np.inf if cusp else shifts + swing * outer
+    moves = np.inf if turns else shifts + swing * outer
     most = uncertainty(motion, i, end)
     then = uncertainty(motion, i, instant)
     # the pose, in the obstacle's frame
@@ -205,10 +210,10 @@ def body_bounds(
             heading,
             instant,
         )
-    if shifts <= SWEEP_STEP_M < swing * outer and not cusp:
-        right, left = turns_between(path.rows, pair[U0], pair[U1])
+    if shifts <= SWEEP_STEP_M and (turns or swing * outer > SWEEP_STEP_M) and not cusp:
+        right, left = turns_between(path.rows, from_u, to_u)
         if not math.isnan(right):
-            first = _heading_of(path.rows, pair[U0]) + right
+            first = _heading_of(path.rows, from_u) + right
             limit = max(enough + shifts + most, 0.0) + 2.0 * SWEEP_STEP_M
             gap, heading = _sweep_gap(
                 motion, i, body, x, y, first - frame, left - right, limit

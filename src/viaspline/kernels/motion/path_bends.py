@@ -27,7 +27,9 @@ SHARPEST: Final = 0  # bound of the curvature of a span [1/m]
 CORNER: Final = 1  # by how much the direction jumps where it begins: the difference of unit vectors
 FIRST_CUSP: Final = 2  # where in it a span stands still and goes back, nan: nowhere, or not known;
 LAST_CUSP: Final = 3  # see ``body_turns``
-BEND_COLUMNS: Final = 4
+BESIDE_FIRST: Final = 4  # and how far in the parameter it turns about each: see ``cusps``
+BESIDE_LAST: Final = 5
+BEND_COLUMNS: Final = 6
 
 ROUNDING_SHARE = 1e-13  # of its factors, below which a cross product is only rounding
 JOINT_SHARE = 1e-12  # of a span, within which a place is at its end

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.curve.cusps import SAME_CUSP, beside_cusps, cusps
 from viaspline.kernels.curve.straight_span import runs_straight, span_rounding
 from viaspline.kernels.jit import inner, kernel
 
@@ -197,6 +198,30 @@ def _next_arc(
         depth += 2
 
 
+@inner
+def _parts_between_turns(k: int, turns: Floats, beside: Floats, parts: Floats) -> int:
+    """Cut a span where it turns on the spot without quite a cusp; in how many parts.
+
+    Args:
+        k: The span.
+        turns: Parameters of cusps, in order.
+        beside: How far in the parameter a path turns about each; none at true cusps.
+        parts: Filled in: begin, end, and 1 or 2 before and behind where it turns, else 0.
+    """
+    count, begin = 0, 0.0
+    for i in range(turns.size):
+        at = turns[i] - k
+        if not begin < at < 1.0 or beside[i] <= SAME_CUSP:
+            continue
+        first, last = max(at - beside[i], begin), min(at + beside[i], 1.0)
+        parts[count, 0], parts[count, 1], parts[count, 2] = begin, first, 0.0
+        parts[count + 1, 0], parts[count + 1, 1], parts[count + 1, 2] = first, at, 1.0
+        parts[count + 2, 0], parts[count + 2, 1], parts[count + 2, 2] = at, last, 2.0
+        count, begin = count + 3, last
+    parts[count, 0], parts[count, 1], parts[count, 2] = begin, 1.0, 0.0
+    return count + 1
+
+
 @kernel
 def bend_caps(
     spans: Floats,
@@ -231,7 +256,9 @@ def bend_caps(
     distances[0] = joints[0]
     count = 0
     q, r, before, after = np.empty((3, d)), np.empty((3, d)), np.empty(d), np.empty(d)
-    stack = np.empty((64, 2))
+    stack, parts = np.empty((64, 2)), np.empty((7, 3))
+    turns = cusps(spans)
+    beside = beside_cusps(spans, turns)
     for i in range(m):
         length = joints[i + 1] - joints[i]
         if length <= 0.0:
@@ -243,26 +270,28 @@ def bend_caps(
         _end_tangent(spans[i], True, before)
         is_straight = runs_straight(spans, i, noise)
         first, summed = count, 0.0
-        stack[0, 0], stack[0, 1] = 0.0, 1.0
-        depth = 1
-        while depth > 0:
-            depth, a, b, cap, cusp = depth - 1, 0.0, 1.0, top, False
-            if not is_straight:
-                depth, a, b, cap, cusp = _next_arc(
-                    q, r, stack, depth + 1, lateral, turning, accel, top, tolerance
-                )
-            piece = _arc_length(q, a, b)
-            if piece <= 0.0:
-                continue
-            if count == size:
-                distances, caps, rests = _grown(distances, caps, rests)
-                size *= 2
-            rests[count] |= cusp
-            rests[count + 1] |= cusp
-            summed += piece
-            caps[count] = cap
-            count += 1
-            distances[count] = summed
+        for part in range(_parts_between_turns(i, turns, beside, parts)):
+            stack[0, 0], stack[0, 1] = parts[part, 0], parts[part, 1]
+            depth = 1
+            while depth > 0:
+                depth -= 1
+                a, b, cap, cusp = stack[depth, 0], stack[depth, 1], top, False
+                if not is_straight and parts[part, 2] == 0.0:
+                    depth, a, b, cap, cusp = _next_arc(
+                        q, r, stack, depth + 1, lateral, turning, accel, top, tolerance
+                    )
+                piece = _arc_length(q, a, b)
+                if piece <= 0.0:
+                    continue
+                if count == size:
+                    distances, caps, rests = _grown(distances, caps, rests)
+                    size *= 2
+                rests[count] |= cusp or parts[part, 2] == 2.0
+                rests[count + 1] |= cusp
+                summed += piece
+                caps[count] = cap
+                count += 1
+                distances[count] = summed
         for k in range(first + 1, count + 1):
             distances[k] = joints[i] + distances[k] * length / summed
         distances[count] = joints[i + 1]
