@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.cardinal import CardinalSpline
@@ -63,6 +63,7 @@ def spline(seed: int, robot: RobotSpec) -> tuple[Path, Drivability, Trajectory]:
 
 @settings(deadline=None, max_examples=40)
 @given(seed=st.integers(0, 2**32 - 1), jerk=st.sampled_from([None, 2.0]))
+@example(seed=483, jerk=None)  # it was told of where the middle of a part isn't half of its way
 def test_the_figures_bound_dense_samples_and_are_attained(seed: int, jerk: float | None) -> None:
     """Curvature by finite differences of positions, speed by differences of places in time."""
     robot = RobotSpec(max_speed_mps=3.0, max_lateral_accel_mps2=0.7, max_jerk_mps3=jerk)
@@ -83,6 +84,12 @@ def test_the_figures_bound_dense_samples_and_are_attained(seed: int, jerk: float
     assert curvature.max() <= 1.0 / found.sharpest_radius + rough
     assert np.max(curvature * at**2) <= found.max_lateral_accel * (1 + 2e-4) + 1e-3
     assert found.max_lateral_accel <= 0.7 * (1 + 1e-9)
+    assert found.max_lateral_at is not None
+    there = found.max_lateral_at.distance  # it is attained where it is told of
+    at_it = path.parameter(there) + 1e-6 * np.array([-1.0, 0.0, 1.0])  # it may jump there
+    bent = np.abs(path.curvature(np.clip(at_it, 0.0, len(path.spans)))).max()
+    attained = float(bent) * float(law.speed_at(there)) ** 2
+    assert found.max_lateral_accel <= attained * (1 + 5e-4) + 1e-6
     assert found.sharpest is not None
     s = found.sharpest.distance  # a turn over a very short way, by positions
     step = min(1e-3 * found.sharpest_radius, 1e-3)

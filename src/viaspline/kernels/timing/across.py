@@ -47,6 +47,24 @@ def _length(spans: Floats, k: int, a: float, b: float) -> float:
 
 
 @inner
+def _halfway(spans: Floats, k: int, a: float, b: float, first: float, last: float) -> float:
+    """How far into a piece of a law the middle of a part of a span lies [m].
+
+    Args:
+        spans: Bézier control polygons [m].
+        k: The span.
+        a: Where the part begins, local parameter.
+        b: Where it ends.
+        first: How far into the piece of the law it begins [m].
+        last: How far it ends [m].
+    """
+    middle = 0.5 * (a + b)
+    part = _length(spans, k, a, middle)
+    whole = part + _length(spans, k, middle, b)
+    return first + (last - first) * part / max(whole, 1e-300)
+
+
+@inner
 def _square(law: Floats, i: int, x: float) -> float:
     """v² at a distance into a piece of a law [m²/s²]."""
     v, width = law[i, SPEED], law[i, WIDTH]
@@ -105,7 +123,10 @@ def largest_across(
         i = int(cells[c, PIECE])
         u = 0.5 * (cells[c, FROM] + cells[c, TO])
         k = int(u)
-        square = _square(law, i, 0.5 * (cells[c, START] + cells[c, START + 1])) - slip
+        x = _halfway(
+            spans, k, cells[c, FROM] - k, cells[c, TO] - k, cells[c, START], cells[c, START + 1]
+        )
+        square = _square(law, i, x) - slip
         here = _value(spans, k, u - k, square, power)
         if here > best:
             best, where = here, u
@@ -134,9 +155,7 @@ def largest_across(
             if b - a <= MIN_PIECE or depth + 2 > MAX_DEPTH:
                 continue
             middle = 0.5 * (a + b)
-            part = _length(spans, k, a, middle)
-            whole = part + _length(spans, k, middle, b)
-            x = first + (last - first) * part / max(whole, 1e-300)
+            x = _halfway(spans, k, a, b, first, last)
             stack[depth, 0], stack[depth, 1] = middle, b
             stack[depth, 2], stack[depth, 3] = x, last
             stack[depth + 1, 0], stack[depth + 1, 1] = a, middle
