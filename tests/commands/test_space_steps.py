@@ -39,6 +39,8 @@ def test_a_mission_in_space_is_checked_planned_and_flown(tower: Path, tmp_path: 
     }  # fmt: skip
     assert json.loads((out / "run.json").read_text())["reached"]
     assert "hall" in done.output
+    assert "Run · tower" in done.output
+    assert "reached its goal" in done.output
 
 
 def test_a_flight_that_finds_no_way_says_so_and_exits_with_4(tower: Path, tmp_path: Path) -> None:

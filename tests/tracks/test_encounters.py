@@ -11,8 +11,10 @@ import pytest
 import viaspline as vs
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.report.run_picture import how_near
 from viaspline.robot.simulation.appearance import Appearance
 from viaspline.robot.simulation.driven_motion import DrivenMotion
+from viaspline.studio.simulated_drive import driven
 from viaspline.tracks.encounters import DrivenStates, encounters, touched_by
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -158,3 +160,36 @@ def test_what_is_behind_the_reach_of_the_sensor_is_late_and_what_is_on_the_map_n
     data = hidden.model_dump(by_alias=True, exclude_defaults=True)
     data["world"] = {"known": data["world"]["unseen"]}
     assert not late(vs.Mission.model_validate(data), contact=10.2)
+
+
+def test_a_touch_at_rest_is_told_wherever_a_run_is() -> None:
+    """A drive whose robot is touched while it dwells reaches its goal; nobody calls it clear."""
+    dog = {
+        "name": "dog", "circle": {"center": [0, 0], "radius": 0.5},
+        "motion": {"keyframes": [[0, 20, 6], [8, 4.9, 0], [9, 4.9, 0], [20, 20, 20]],
+                   "after": "stay"},
+    }  # fmt: skip
+    mission = vs.Mission.model_validate(
+        {
+            "world": {"unseen": [dog]},
+            "robot": {"sensor": {"range_m": 3}, "moving": {"max_speed_mps": 3}},
+            "route": {"start": [0, 0], "via": [{"at": [5, 0], "dwell_s": 20}], "goal": [10, 0]},
+        }
+    )
+    run = vs.simulate(mission)
+    assert run.reached
+    assert run.encounters is not None
+    [contact] = run.encounters.contacts
+    assert contact.robot_speed == 0.0
+    assert run.least_clearance == run.encounters.clearance < 0.0
+    said = "touched by 'dog', which moves, while it stood"
+    assert f"{run.least_clearance:.2f} m clear, 0 re-plans, reached, {said}, at" in repr(run)
+    [event] = [one for one in run.events if one.kind == "contact"]
+    assert (event.time, event.message) == (contact.time, said)
+    assert [one.time for one in run.events] == sorted(one.time for one in run.events)
+    assert event.at == pytest.approx(run.place_at(contact.time), abs=1e-6)
+    assert how_near(run) == run.encounters.touched
+    assert driven(run)["touched"] == run.encounters.touched
+    assert driven(run)["clearance"] == run.least_clearance
+    for words in (run.summary(), run._repr_html_()):
+        assert "CONTACT" in words

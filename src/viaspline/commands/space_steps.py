@@ -97,10 +97,10 @@ def run_spatial_mission(
                     film_flight(flown, file.stem, film, watch.fraction)
         files = results.write_all(folder, contents, watch.times)
     if not quiet:
-        from viaspline.report.space.spatial_tables import spatial_plan_tables
+        from viaspline.report.space.spatial_tables import spatial_plan_tables, spatial_run_tables
         from viaspline.report.terminal_tables import show
 
-        show(spatial_plan_tables(planned, file.stem))
+        show(spatial_plan_tables(planned, file.stem), spatial_run_tables(flown, file.stem))
         say_written([*files, *([] if film is None else [film.path])])
     if not flown.reached:
         import click

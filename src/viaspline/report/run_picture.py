@@ -158,13 +158,21 @@ def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:
     )
     new = {0: "no new path under way", 1: "1 new path under way"}
     paths = new.get(len(run.replans), f"{len(run.replans)} new paths under way")
-    moving = None if run.encounters is None else run.encounters.clearance
-    line = f"{proof(run.certificate, moving=moving)}; {paths}"
+    line = f"{how_near(run)}; {paths}"
     if run.tracking is not None:
         line += f"; {metres(run.tracking.cross.p99, 3)} beside its path in 99 % of the time"
     if not run.reached:  # why is more to the point than the spline's tension
         return title, (run.reason or "", line)
     return title, (line, subtitle(run.plan.mission))
+
+
+def how_near(run: Run) -> str:
+    """How near it came to anything, in words; what touched it first."""
+    met = run.encounters
+    if met is None or not met.contacts:
+        return proof(run.certificate, moving=None if met is None else met.clearance)
+    stands = f"; {proof(run.certificate)}" if np.isfinite(run.certificate.clearance) else ""
+    return f"{met.touched}{stands}"
 
 
 def has_lidar(run: Run) -> bool:

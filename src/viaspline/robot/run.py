@@ -24,7 +24,7 @@ from viaspline.presentable.named_columns import Table, coordinates, named_column
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.presentable.told_in_lines import told_in_lines
-from viaspline.tracks.encountered import Encounters
+from viaspline.tracks.encountered import Encounters, told_in_short
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
@@ -217,11 +217,17 @@ class Run(ShownValue, MovingValue, SavedValue, ComparedByValue):
         return tuple(getattr(self, one.name) for one in fields(self) if one.name not in left_out)
 
     def __repr__(self) -> str:
-        end = "reached" if self.reached else self.reason
+        end = told_in_short(self.reached, self.reason, self.encounters)
         return (
-            f"<Run: {self.duration:.1f} s, {self.certificate.clearance:.2f} m clear, "
+            f"<Run: {self.duration:.1f} s, {self.least_clearance:.2f} m clear, "
             f"{len(self.replans)} re-plans, {end}>"
         )
+
+    @property
+    def least_clearance(self) -> float:
+        """Proven free space to everything, moving or not [m]; below 0 where something touched."""
+        met, stands = self.encounters, self.certificate.clearance
+        return stands if met is None else min(stands, met.clearance)
 
     @property
     def excesses(self) -> tuple[Excess, ...]:

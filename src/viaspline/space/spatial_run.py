@@ -15,7 +15,7 @@ from viaspline.presentable.named_columns import Table, coordinates, named_column
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.space.spatial_plan import SpatialPlan
-from viaspline.tracks.encountered import Encounters
+from viaspline.tracks.encountered import Encounters, told_in_short
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,9 +73,9 @@ class SpatialRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
     broken_premises: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
-        end = "reached" if self.reached else self.reason
+        end = told_in_short(self.reached, self.reason, self.encounters)
         return (
-            f"<SpatialRun: {self.duration:.1f} s, {self.clearance:.2f} m clear, "
+            f"<SpatialRun: {self.duration:.1f} s, {self.least_clearance:.2f} m clear, "
             f"{len(self.replans)} re-plans, {end}>"
         )
 
@@ -95,6 +95,12 @@ class SpatialRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
                 "climb_mps": self.climbs,
             }
         )
+
+    @property
+    def least_clearance(self) -> float:
+        """Proven free space to everything, moving or not [m]; below 0 where something touched."""
+        met = self.encounters
+        return self.clearance if met is None else min(self.clearance, met.clearance)
 
     @property
     def duration(self) -> float:

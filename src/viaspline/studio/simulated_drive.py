@@ -69,7 +69,8 @@ def driven(run: Run) -> dict[str, Any]:
         "reason": run.reason,
         "duration": run.duration,
         "distance": run.path.length,
-        "clearance": finite(run.certificate.clearance),
+        "clearance": finite(run.least_clearance),
+        "touched": "" if run.encounters is None else run.encounters.touched,
         "samples": {
             "time": rounded(run.times[some], 3),
             "x": rounded(run.positions[some, 0], 4),

@@ -27,6 +27,17 @@ class Contact:
     robot_speed: float
     appeared_within_braking_time: bool = False
 
+    @property
+    def words(self) -> str:
+        """What happened.
+
+        >>> Contact(7.59, "dog", 0.0).words, Contact(7.59, "dog", 1.5).words
+        ("touched by 'dog', which moves, while it stood", "touched 'dog', which moves, at 1.50 m/s")
+        """
+        if self.robot_speed == 0.0:
+            return f"touched by '{self.obstacle}', which moves, while it stood"
+        return f"touched '{self.obstacle}', which moves, at {self.robot_speed:.2f} m/s"
+
 
 @dataclass(frozen=True)
 class Pass:
@@ -65,3 +76,28 @@ class Encounters:
     obstacle: str | None
     contacts: tuple[Contact, ...]
     passes: tuple[Pass, ...] = ()
+
+    @property
+    def touched(self) -> str:
+        """The first touch in words, and how many more there were; empty where nothing touched."""
+        if not self.contacts:
+            return ""
+        first, more = self.contacts[0], len(self.contacts) - 1
+        return f"{first.words}, at {first.time:.1f} s" + (
+            f", and {more} times more" if more else ""
+        )
+
+
+def told_in_short(reached: bool, reason: str | None, met: Encounters | None) -> str:
+    """How a drive ended, and whether something that moves touched the robot.
+
+    >>> told_in_short(True, None, None)
+    'reached'
+    >>> told_in_short(True, None, Encounters(-0.1, 8.0, "dog", (Contact(7.59, "dog", 0.0),)))
+    "reached, touched by 'dog', which moves, while it stood, at 7.6 s"
+    """
+    end = "reached" if reached else reason or ""
+    touched = "" if met is None else met.touched
+    if not touched or "touched" in end:  # one that was under way is the reason
+        return end
+    return f"{end}, {touched}"

@@ -11,9 +11,12 @@ from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
+from viaspline.report.space.flight_picture import how_near_in_space
+from viaspline.report.space.flown_clearance import flown_clearance
 from viaspline.space.online import watch_flight
 from viaspline.space.online.fly import fly
 from viaspline.space.plan_spatial import plan_spatial
+from viaspline.studio.space.simulated_flight import flown
 
 sys.path.insert(0, str(Path(__file__).parent))
 from unseen_flights import CLEARANCE, gaps_and_speeds, mission, moves, wanderer
@@ -181,3 +184,23 @@ def test_the_same_seed_gives_the_same_flight() -> None:
     first, again, other = (fly(plan, step=0.2, seed=seed) for seed in (3, 3, 4))
     assert first.samples().tobytes() == again.samples().tobytes()
     assert first.samples().tobytes() != other.samples().tobytes()
+
+
+def test_a_touch_while_it_hovers_is_told_wherever_a_flight_is() -> None:
+    frames = [[0, 40, 40, 10], [20, 20, 0.3, 10], [22, 20, -0.3, 10], [40, 60, -40, 10]]
+    stays = [{"at": [20, 0, 10], "dwell_s": 30}]
+    run = fly(plan_spatial(mission([moves("dog", 0.5, frames)], via=stays)))
+    assert run.reached
+    assert run.encounters is not None
+    [contact] = run.encounters.contacts
+    assert contact.robot_speed == 0.0
+    assert run.least_clearance == run.encounters.clearance < 0.0 < run.clearance
+    told = run.encounters.touched
+    assert f"{run.least_clearance:.2f} m clear, 0 re-plans, reached, {told}>" in repr(run)
+    assert how_near_in_space(run).startswith(f"{told}; proven: nowhere closer than")
+    assert flown_clearance(run).min() == pytest.approx(-1.0, abs=0.02)  # it flew through the robot
+    page = flown(run)
+    assert (page["touched"], page["clearance"]) == (told, run.least_clearance)
+    assert [one["time"] for one in page["events"] if one["kind"] == "contact"] == [contact.time]
+    for words in (run.summary(), run._repr_html_()):
+        assert "CONTACT" in words

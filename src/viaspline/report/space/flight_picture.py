@@ -73,15 +73,23 @@ def _heading(run: SpatialRun, name: str) -> tuple[str, tuple[str, ...]]:
     title = f"{style.short(name, 48)}: {end}, {metres(length, 1)} in {seconds(run.duration)}"
     new = {0: "no new path under way", 1: "1 new path under way"}
     paths = new.get(len(run.replans), f"{len(run.replans)} new paths under way")
+    second = body_subtitle(run.plan) if run.reached else run.reason
+    return title, (f"{how_near_in_space(run)}; {paths}", second)
+
+
+def how_near_in_space(run: SpatialRun) -> str:
+    """How near a flight came to anything, in words; what touched it first."""
     asked = metres(run.plan.certificate.required)
     proven = "nothing to keep clear of"
     if np.isfinite(run.clearance):
         proven = f"proven: nowhere closer than {down(run.clearance)} to anything ({asked} asked)"
     met = run.encounters
-    if met is not None and np.isfinite(met.clearance):
-        proven += f", {down(met.clearance)} from '{style.short(met.obstacle or '')}', which moves"
-    second = body_subtitle(run.plan) if run.reached else run.reason
-    return title, (f"{proven}; {paths}", second)
+    if met is None or not np.isfinite(met.clearance):
+        return proven
+    if not met.contacts:
+        moves = f"{down(met.clearance)} from '{style.short(met.obstacle or '')}', which moves"
+        return f"{proven}, {moves}"
+    return f"{met.touched}; {proven}" if np.isfinite(run.clearance) else met.touched
 
 
 def _with_unseen(scene: SpatialScene, run: SpatialRun) -> SpatialScene:

@@ -1,4 +1,4 @@
-"""How much free space a flight had over time, of what is seen and what isn't.
+"""How much free space a flight had over time, of what stands and what moves, seen or not.
 
 Tested through ``report/space/test_flight_picture``.
 """
@@ -9,6 +9,9 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.mission.space.flight_places import flight_places
+from viaspline.mission.space.flying_body import FlyingBody
+from viaspline.report.space.moving_in_space import solids_met
+from viaspline.space.among.moving_solids import MovingSolids
 from viaspline.space.spatial_request import spatial_world_of
 from viaspline.space.spatial_run import SpatialRun
 from viaspline.space.without_ground import without_ground
@@ -18,7 +21,7 @@ STILL_M = 1e-6
 
 
 def flown_clearance(run: SpatialRun) -> Floats:
-    """Free space between the body and all that stands, at the times of a run [m], shape (n,).
+    """Free space between the body and everything, at the times of a run [m], shape (n,).
 
     While it takes off and lands the ground doesn't count.
     """
@@ -33,7 +36,8 @@ def flown_clearance(run: SpatialRun) -> Floats:
     if on_ground.any():
         free[on_ground] = without_ground(there).distance(places[on_ground])
     body: Floats = free - (mission.robot.radius_m if mission.robot.half_height_m is None else 0.0)
-    return body
+    moving = MovingSolids(solids_met(run), FlyingBody.of(mission.robot))
+    return np.minimum(body, moving.distance(places, run.times))
 
 
 def _on_ground(run: SpatialRun) -> Flags:

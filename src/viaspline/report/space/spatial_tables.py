@@ -30,6 +30,11 @@ def spatial_plan_tables(plan: SpatialPlan, name: str) -> RenderableType:
     return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
 
 
+def spatial_run_tables(run: SpatialRun, name: str) -> RenderableType:
+    """What was flown in figures."""
+    return facts_table(f"Run · {name}", spatial_run_rows(run))
+
+
 def spatial_plan_rows(plan: SpatialPlan) -> Rows:
     """The path in figures: names, and what they are."""
     path, certificate = plan.path, plan.certificate

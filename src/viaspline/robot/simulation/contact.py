@@ -1,4 +1,4 @@
-"""When a driven body touches something.
+"""When a driven body touches something, or is touched.
 
 Tested through ``robot/simulation/test_machine_drive`` and ``robot/simulation/test_exact_drive``.
 """
@@ -10,6 +10,8 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Event
+from viaspline.tracks.encountered import Encounters
+from viaspline.tracks.encounters import DrivenStates
 from viaspline.world.world import World
 
 TOUCH_DEPTH_M = 1e-9
@@ -40,3 +42,17 @@ def first_contact(robot: RobotSpec, world: World, rows: Floats) -> Event | None:
     name = world.name(int(nearest[i]))
     where = float(rows[i, 1]), float(rows[i, 2])
     return Event("contact", float(rows[i, 0]), where, f"touches '{name}'", {"name": name})
+
+
+def with_contacts(
+    events: tuple[Event, ...], met: Encounters | None, motion: DrivenStates
+) -> tuple[Event, ...]:
+    """The events of a drive in order, with every touch of something that moves."""
+    if met is None or not met.contacts:
+        return events
+    places, _ = motion.state_at(np.array([one.time for one in met.contacts]))
+    touches = (
+        Event("contact", one.time, tuple(at), one.words, {"name": one.obstacle})
+        for one, at in zip(met.contacts, places.tolist(), strict=True)
+    )
+    return tuple(sorted((*touches, *events), key=lambda event: event.time))

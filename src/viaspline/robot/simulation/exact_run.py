@@ -11,6 +11,7 @@ from viaspline.curve.path import SEAM, Path
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.run import Event, Run
 from viaspline.robot.simulation.appearance import Appearance
+from viaspline.robot.simulation.contact import with_contacts
 from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.exact_drive import ExactDrive
 from viaspline.robot.simulation.machine_run import proven
@@ -50,9 +51,9 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
     met = None
     if len(moving):
         appearance = Appearance(nav.mission, world, moving, motion)
-        met = encounters(
-            _states(drive, path), robot, robot.outer_radius, moving, appearance.was_late
-        )
+        states = _states(drive, path)
+        met = encounters(states, robot, robot.outer_radius, moving, appearance.was_late)
+        events = with_contacts(events, met, states)
     reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,

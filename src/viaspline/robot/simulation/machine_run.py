@@ -21,6 +21,7 @@ from viaspline.machine.turned_in_place import turned_in_place
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Run, Visit
 from viaspline.robot.simulation.appearance import Appearance
+from viaspline.robot.simulation.contact import with_contacts
 from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.machine_drive import MachineDrive
 from viaspline.robot.simulation.near_misses import near_misses
@@ -69,9 +70,9 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     met = None
     if len(moving):
         appearance = Appearance(nav.mission, world, moving, motion)
-        met = encounters(
-            _states(drive, travel.speeds), robot, robot.outer_radius, moving, appearance.was_late
-        )
+        states = _states(drive, travel.speeds)
+        met = encounters(states, robot, robot.outer_radius, moving, appearance.was_late)
+        events = with_contacts(events, met, states)
     reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,

@@ -31,7 +31,8 @@ def flown(run: SpatialRun) -> dict[str, Any]:
         "reason": run.reason,
         "duration": run.duration,
         "distance": float(steps.sum()),
-        "clearance": finite(run.clearance),
+        "clearance": finite(run.least_clearance),
+        "touched": "" if run.encounters is None else run.encounters.touched,
         "samples": {
             "time": rounded(run.times[some], 3),
             "x": rounded(run.positions[some, 0], 4),
@@ -85,6 +86,8 @@ def _events(run: SpatialRun) -> Iterator[dict[str, Any]]:
             yield _event(run, "via", time, f"passed '{via.name}'")
     for one in run.replans:
         yield from _replanned(run, one)
+    for touch in () if run.encounters is None else run.encounters.contacts:
+        yield _event(run, "contact", touch.time, touch.words, name=touch.obstacle)
     end = float(run.times[-1])
     if run.reached:
         yield _event(run, "reached", end, "reached the goal")

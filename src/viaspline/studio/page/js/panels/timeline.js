@@ -203,7 +203,7 @@ export class Timeline {
     if (drive.time >= run.duration && !drive.isPlaying) {
       if (run.fleet) fill(this.note, ...fleetWords(run));
       else this.note.textContent = run.reached
-        ? `reached the goal in ${seconds(run.duration)}, ${metres(run.distance, 1)}, never closer than ${metres(run.clearance)} · ${run.replans.length} re-plan${run.replans.length === 1 ? "" : "s"}`
+        ? `reached the goal in ${seconds(run.duration)}, ${metres(run.distance, 1)}, ${nearness(run)} · ${run.replans.length} re-plan${run.replans.length === 1 ? "" : "s"}`
         : `did not reach the goal: ${run.reason}`;
     }
   }
@@ -229,6 +229,12 @@ export class Timeline {
       return mark;
     }));
   }
+}
+
+/** How near a robot came to anything, or what touched it. @param {any} run */
+function nearness(run) {
+  if (run.touched) return run.touched;
+  return run.clearance === null ? "with nothing near" : `never closer than ${metres(run.clearance)}`;
 }
 
 /** What came of the drive of a fleet. @param {any} run @returns {(Node|string)[]} */
