@@ -72,6 +72,22 @@ def test_an_altitude_above_terrain_is_never_taken_as_above_home(tmp_path: Path) 
     assert [len(point.at) for _, point in mission.route.points()] == [2, 2, 2]
 
 
+@pytest.mark.parametrize("mode", ["3", "AboveTerrain", True, 3.5, [3], -1, 6, float("nan")])
+def test_an_altitude_mode_that_there_is_not_is_refused(tmp_path: Path, mode: Any) -> None:
+    """What is above terrain would be taken as above sea level without a word."""
+    file = plan(tmp_path, item(NORTH, 0, 450, AltitudeMode=mode, Altitude=20))
+    with pytest.raises(MissionError, match=r"mission.items\[0\].AltitudeMode: .*it should be"):
+        quietly(file)
+
+
+@pytest.mark.parametrize("mode", [None, 0, 1, 2, 4, 5])
+def test_other_altitude_modes_say_no_more_than_the_frame(tmp_path: Path, mode: Any) -> None:
+    here, there = (item(at, 3, 20, AltitudeMode=mode, Altitude=9) for at in (NORTH, NORTH + 1e-3))
+    assert quietly(plan(tmp_path, here, there)).route.goal == (
+        quietly(plan(tmp_path, item(NORTH, 3, 20), item(NORTH + 1e-3, 3, 20))).route.goal
+    )
+
+
 def test_the_altitude_above_sea_level_of_a_terrain_altitude_is_enough(tmp_path: Path) -> None:
     file = plan(tmp_path, over_terrain(NORTH, 20, 431.5), item(NORTH + 0.001, 3, 20))
     with pytest.warns(MissionWarning, match="item 1: altitude above terrain, taken by the alt"):

@@ -6,6 +6,7 @@ Tested through ``formats/test_qgc_plan`` and ``commands/test_upload_command``.
 from __future__ import annotations
 
 import math
+from types import MappingProxyType
 from typing import Any, Final
 
 from viaspline.formats.items import ABSOLUTE, TERRAIN, FenceArea, Item
@@ -14,7 +15,19 @@ RELATIVE_ALTITUDE: Final = 1
 ABSOLUTE_ALTITUDE: Final = 2
 ABOVE_TERRAIN: Final = 3
 TERRAIN_FRAME: Final = 4
-"""QGroundControl's AltitudeModes."""
+"""Some of QGroundControl's AltitudeModes."""
+
+ALTITUDE_MODES: Final = MappingProxyType(
+    {
+        0: "mixed",
+        RELATIVE_ALTITUDE: "above home",
+        ABSOLUTE_ALTITUDE: "above sea level",
+        ABOVE_TERRAIN: "above terrain, reckoned by QGroundControl",
+        TERRAIN_FRAME: "above terrain, kept by the vehicle",
+        5: "none",
+    }
+)
+"""All of them, in words."""
 
 
 def item_json(item: Item) -> dict[str, Any]:

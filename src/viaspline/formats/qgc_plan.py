@@ -17,7 +17,13 @@ from viaspline.formats.json_tree import Tree, json_tree
 from viaspline.formats.mission_format import Whereabouts, Written
 from viaspline.formats.named_files import world_data
 from viaspline.formats.outgoing import itinerary_of, lost_of
-from viaspline.formats.plan_parts import ABOVE_TERRAIN, circle_json, item_json, polygon_json
+from viaspline.formats.plan_parts import (
+    ABOVE_TERRAIN,
+    ALTITUDE_MODES,
+    circle_json,
+    item_json,
+    polygon_json,
+)
 from viaspline.formats.waypoint_format import WaypointFormat
 from viaspline.mission.model import Mission
 from viaspline.mission.unplaced_faults import describe
@@ -208,7 +214,7 @@ def _item(tree: Tree, number: int) -> Item | None:
         return None
     *params, latitude, longitude, altitude = values
     over_terrain = altitude if frame in TERRAIN else math.nan
-    if tree["AltitudeMode"].value == ABOVE_TERRAIN:
+    if _altitude_mode(tree["AltitudeMode"]) == ABOVE_TERRAIN:
         # The altitude above sea level is what QGroundControl makes of it, once it has a terrain.
         over_terrain = tree["Altitude"].number()
         altitude = tree["AMSLAltAboveTerrain"].number()
@@ -223,6 +229,15 @@ def _item(tree: Tree, number: int) -> Item | None:
         place=Place(tree.key),
         over_terrain=over_terrain,
     )
+
+
+def _altitude_mode(tree: Tree) -> int | None:
+    """What an altitude is above, where the item says so beside its frame."""
+    mode = None if tree.value is None else tree.whole()
+    if mode is not None and mode not in ALTITUDE_MODES:
+        names = ", ".join(f"{number} ({words})" for number, words in ALTITUDE_MODES.items())
+        tree.fault(f"there is no AltitudeMode {mode}", f"it should be one of {names}")
+    return mode
 
 
 def _values(tree: Tree) -> tuple[float, ...] | None:
