@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 import tifffile
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.errors import MissionError
@@ -124,6 +124,16 @@ def test_a_compression_that_needs_another_package_names_it(tmp_path: Path) -> No
         read_geotiff(file)
 
 
+def of_no_type(file: Path, code: int) -> Path:
+    """The file with a tag whose type there isn't."""
+    data = bytearray(file.read_bytes())
+    with tifffile.TiffFile(file) as tiff:
+        at = tiff.pages[0].tags[code].offset
+    data[at + 2 : at + 4] = struct.pack("<H", 99)
+    file.write_bytes(data)
+    return file
+
+
 def test_a_terrain_of_too_many_heights_is_refused_before_they_are_read(tmp_path: Path) -> None:
     file = spoiled(spoiled(written(tmp_path), 256, 10_000), 257, 10_000)
     with pytest.raises(MissionError, match="10000 x 10000 heights; cut it"):
@@ -139,6 +149,37 @@ def test_other_and_broken_files_are_refused(tmp_path: Path) -> None:
     short.write_bytes(short.read_bytes()[:-8])
     with pytest.raises(MissionError, match=r"dem.tif: is broken|shape"):
         read_geotiff(short)
+
+
+def test_nothing_but_our_own_words_is_on_the_terminal(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """tifffile logs what it stumbles on, and reads on without the tag."""
+    for code in (257, 339, 33550, 42113):
+        with pytest.raises(MissionError, match=rf"a broken one: .*{code}"):
+            read_geotiff(of_no_type(written(tmp_path), code))
+    assert read_geotiff(of_no_type(written(tmp_path), 305)).heights.shape == (2, 3)  # its software
+    assert caplog.text == ""
+    assert capfd.readouterr() == ("", "")
+
+
+@settings(max_examples=60)
+@given(seed=st.integers(0, 10_000))
+@example(seed=1)
+def test_a_file_with_any_byte_changed_is_read_or_refused(
+    seed: int, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    rng = np.random.default_rng(seed)
+    file = written(tmp_path_factory.mktemp("bytes"))
+    data = bytearray(file.read_bytes())
+    for _ in range(int(rng.integers(1, 6))):
+        data[int(rng.integers(min(len(data), 400)))] = int(rng.integers(256))
+    file.write_bytes(data)
+    try:
+        terrain = read_geotiff(file)
+    except MissionError:
+        return
+    assert np.isfinite(terrain.heights).any()
 
 
 def test_without_its_package_the_remedy_is_told(

@@ -15,6 +15,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.maps.map_faults import check_heights, check_nodes, refusal
 from viaspline.maps.reading import Reading
 from viaspline.maps.terrain import Terrain
+from viaspline.maps.tifffile_words import tifffile_words
 
 if TYPE_CHECKING:
     from tifffile import TiffPage
@@ -24,6 +25,14 @@ _TIEPOINTS: Final = 33922
 _TRANSFORMATION: Final = 34264
 _GEO_KEYS: Final = 34735
 _GDAL_NODATA: Final = 42113
+
+_NEEDED: Final = frozenset(
+    {
+        256, 257, 258, 259, 273, 277, 278, 279, 284, 317, 322, 323, 324, 325, 339,
+        _PIXEL_SCALE, _TIEPOINTS, _TRANSFORMATION, _GEO_KEYS, _GDAL_NODATA,
+    }
+)  # fmt: skip
+"""The tags without which heights are others, or lie elsewhere."""
 
 _MODEL_TYPE: Final = 1024
 _RASTER_TYPE: Final = 1025
@@ -56,17 +65,28 @@ def read_geotiff(path: str | Path, *, source: str | None = None) -> Terrain:
             that takes another package.
     """
     file = Path(path)
-    page = _first_page(file, read_bytes(file, TERRAIN_FILE))
+    with tifffile_words() as words:
+        page = _first_page(file, read_bytes(file, TERRAIN_FILE))
+        unread = words.unread(_NEEDED)
+        if unread is not None:
+            problem = f"is no GeoTIFF, or a broken one: {unread}"
+            raise refusal(file, problem, "save the terrain again")
+        return _terrain(file, page, str(path) if source is None else source)
+
+
+def _terrain(file: Path, page: TiffPage, name: str) -> Terrain:
     if len(page.shape) != 2:
         problem = f"the picture has shape {page.shape}"
         raise refusal(file, problem, "give a terrain of one band: rows and columns of heights")
     rows, columns = page.shape
+    if not (isinstance(rows, int) and isinstance(columns, int)):
+        problem = f"its size is {columns} x {rows}"
+        raise refusal(file, problem, "save the terrain again")
     check_nodes(file, columns, rows)
     keys = _geo_keys(page)
     _check_metres(file, keys)
     cell, x, y = _frame(file, page, keys.get(_RASTER_TYPE) == _POINTS)
     heights = _heights(file, page)
-    name = str(path) if source is None else source
     origin = x, y - (rows - 1) * cell
     return Terrain(heights[::-1], cell, origin, name, Reading(file.absolute()))
 
@@ -89,7 +109,7 @@ def _first_page(path: Path, data: bytes) -> TiffPage:
 
 def _geo_keys(page: TiffPage) -> dict[int, int]:
     """The keys that hold a number of their own."""
-    values = [int(value) for value in _tag(page, _GEO_KEYS)]
+    values = [value for value in _tag(page, _GEO_KEYS) if isinstance(value, int)]
     rows = zip(values[4::4], values[5::4], values[7::4], strict=False)
     return {key: value for key, where, value in rows if where == 0}
 
@@ -124,6 +144,8 @@ def _frame(path: Path, page: TiffPage, at_points: bool) -> tuple[float, float, f
     """
     matrix = _tag(page, _TRANSFORMATION)
     scale, tie = _tag(page, _PIXEL_SCALE), _tag(page, _TIEPOINTS)
+    if not all(isinstance(one, int | float) for one in (*matrix, *scale, *tie)):
+        raise refusal(path, "it doesn't say in numbers where it lies", "save the terrain again")
     if len(matrix) == 16:
         right, skew_x, x, skew_y, down, y = (matrix[i] for i in (0, 1, 3, 4, 5, 7))
         if skew_x or skew_y:
@@ -150,7 +172,8 @@ def _heights(path: Path, page: TiffPage) -> Floats:
     if page.dtype is None or page.dtype.kind not in "iuf":
         raise refusal(path, f"its pixels are {page.dtype}", "give heights as whole or real numbers")
     try:
-        heights = np.asarray(page.asarray(), np.float64)
+        with np.errstate(invalid="ignore"):  # spoiled numbers become NaN
+            heights = np.asarray(page.asarray(), np.float64)
     except Exception as error:  # of a broken file it raises whatever it stumbles on
         raise _unreadable(path, page, str(error)) from None
     heights = heights.reshape(page.shape)
