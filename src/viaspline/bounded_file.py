@@ -13,7 +13,7 @@ import stat
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from viaspline.errors import Fault, MissionError
+from viaspline.errors import Fault, MissionError, with_article
 
 _WITHOUT_WAITING: Final = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
 """A pipe is opened at once, whether or not anybody writes to it."""
@@ -68,7 +68,7 @@ def read_bytes(path: str | Path, kind: FileKind) -> bytes:
     Traceback (most recent call last):
     viaspline.errors.MissionError: /dev/zero: is a device, not a file; give the path of a map ...
     """
-    remedy = f"give the path of a {kind.words} that can be read"
+    remedy = f"give the path of {with_article(kind.words)} that can be read"
     try:
         file = os.open(path, os.O_RDONLY | _WITHOUT_WAITING)
         try:
@@ -144,7 +144,7 @@ def _refusal(path: str | Path, problem: str, remedy: str) -> MissionError:
 
 
 def _too_large(path: str | Path, has: str, kind: FileKind) -> MissionError:
-    most = f"more than the {_megabytes(kind.max_bytes)} that are read of a {kind.words}"
+    most = f"more than the {_megabytes(kind.max_bytes)} that are read of {with_article(kind.words)}"
     return _refusal(path, f"{has}, {most}", kind.smaller)
 
 

@@ -28,6 +28,19 @@ from dataclasses import dataclass, field
 from typing import Any
 
 
+def with_article(name: str) -> str:
+    """A name with a or an before it, as it is spoken.
+
+    >>> with_article("map"), with_article("OctoMap"), with_article("UInt8"), with_article("unseen")
+    ('a map', 'an OctoMap', 'a UInt8', 'an unseen')
+    """
+    low = name.lower()
+    spoken_as_you = low.startswith("u") and not (low.startswith("un") and low[2:3] != "i")
+    return (
+        f"an {name}" if low[:1] in ("a", "e", "i", "o", "u") and not spoken_as_you else f"a {name}"
+    )
+
+
 class ViasplineError(Exception):
     """Base of every error that viaspline raises on purpose.
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.curve.provable_curve import StatedCurve, provable_curve
-from viaspline.errors import GeometryError
+from viaspline.errors import GeometryError, with_article
 from viaspline.handed_in import check_answers, number_from
 from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.clearance.world_protocol import dimension
@@ -146,8 +146,9 @@ def certify(
     check_answers("world", world, "packed", "give a World")
     whole = provable_curve(curve)
     if footprint is not None and not whole.has_its_tangents:
+        name = with_article(type(curve).__name__)
         raise GeometryError(
-            f"a {type(curve).__name__} is proven by cubics beside it, whose tangents differ from "
+            f"{name} is proven by cubics beside it, whose tangents differ from "
             "its own; give a piecewise cubic for a footprint, or a radius that holds the body"
         )
     given, curve = curve, whole.cubics

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import GeometryError
+from viaspline.errors import GeometryError, with_article
 from viaspline.handed_in import numbers_from
 from viaspline.kernels.arrays import Floats
 
@@ -139,8 +139,9 @@ def polynomial_from(curve: object) -> PolynomialCurve | None:
         return None
     pieces, ends = np.asarray(given.c), np.asarray(given.x, np.float64)
     if pieces.ndim != 3 or np.iscomplexobj(pieces):
+        name = with_article(type(curve).__name__)
         raise GeometryError(
-            f"a {type(curve).__name__} with values of shape {pieces.shape[2:]} is no curve; give "
+            f"{name} with values of shape {pieces.shape[2:]} is no curve; give "
             "one with values [x, y] or [x, y, z]"
         )
     is_sane = np.isfinite(ends).all() and (np.abs(pieces) <= LARGEST).all()  # NaN isn't, either

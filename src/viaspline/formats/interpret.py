@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from viaspline.errors import Fault, MissionError, MissionWarning
+from viaspline.errors import Fault, MissionError, MissionWarning, with_article
 from viaspline.formats.fences import fence_areas
 from viaspline.formats.file_faults import fault_at, refusal
 from viaspline.formats.flights import ground_of, not_flown, route_in_space
@@ -138,7 +138,7 @@ def _warn(source: str, notes: Sequence[tuple[str, str]]) -> None:
 
 def _aside(notes: Sequence[tuple[str, str]]) -> str:
     """What else is in the file, where too little of it is left."""
-    return "".join(f" ({where} is a {kind})" for kind, where in notes)
+    return "".join(f" ({where} is {with_article(kind)})" for kind, where in notes)
 
 
 def _check_coordinates(

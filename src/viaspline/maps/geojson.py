@@ -16,7 +16,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from viaspline.bounded_file import MAP_FILE, read_text
-from viaspline.errors import MissionError
+from viaspline.errors import MissionError, with_article
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.area import (
     FARTHEST_M,
@@ -111,7 +111,7 @@ def _shapes(path: Path, item: Any, key: str, name: str | None) -> Iterator[_Shap
         for i, rings in enumerate(_list(path, item, "coordinates", key)):
             yield _polygon(path, rings, f"{_join(key, 'coordinates')}[{i}]", name)
     else:
-        words = f"a {kind}" if isinstance(kind, str) else "an object without a type"
+        words = with_article(kind) if isinstance(kind, str) else "an object without a type"
         raise refusal(path, f"found {words}, which is no area", _ONLY, key=key)
 
 

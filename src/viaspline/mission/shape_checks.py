@@ -42,7 +42,7 @@ def _one_shape(path: Path, obstacle: Obstacle) -> list[UnplacedFault]:
             UnplacedFault(path, "the obstacle has no shape", f"give {examples} or map: FILE")
         )
     if len(given) > 1:
-        problem = f"the obstacle has two shapes, a {given[0]} and a {given[1]}"
+        problem = f"the obstacle has two shapes, {given[0]} and {given[1]}"
         faults.append(UnplacedFault(path, problem, "keep one, or make it two obstacles"))
     if obstacle.holes and obstacle.polygon is None:
         problem = "there are holes, but no polygon that has them"

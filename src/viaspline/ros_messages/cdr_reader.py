@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from viaspline.errors import MessageError
+from viaspline.errors import MessageError, with_article
 from viaspline.ros_messages.message_types import PRIMITIVES, MessageField, MessageType, needed_by
 
 HEADER_BYTES: Final = 4
@@ -40,7 +40,9 @@ def reader_of(name: str, types: Mapping[str, MessageType]) -> Callable[[bytes], 
     def read(data: bytes) -> dict[str, Any]:
         order = _ORDERS.get(bytes(data[:2])) if len(data) >= HEADER_BYTES else None
         if order is None:
-            raise MessageError(f"a {name} begins with the bytes {bytes(data[:4]).hex()}: no CDR")
+            raise MessageError(
+                f"{with_article(name)} begins with the bytes {bytes(data[:4]).hex()}: no CDR"
+            )
         try:
             message: dict[str, Any] = takes[order](data, HEADER_BYTES)[0]
         except (struct.error, ValueError, MemoryError) as error:

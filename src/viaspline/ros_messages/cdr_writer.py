@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from viaspline.errors import MessageError
+from viaspline.errors import MessageError, with_article
 from viaspline.ros_messages.message_types import PRIMITIVES, MessageField, MessageType, needed_by
 
 LITTLE_ENDIAN: Final = b"\x00\x01\x00\x00"
@@ -42,7 +42,7 @@ def writer_of(name: str, types: Mapping[str, MessageType]) -> Callable[[Mapping[
         try:
             put(buffer, message)
         except KeyError as error:
-            raise MessageError(f"a {name} needs the field {error.args[0]!r}") from None
+            raise MessageError(f"{with_article(name)} needs the field {error.args[0]!r}") from None
         except (struct.error, TypeError, ValueError, OverflowError, AttributeError) as error:
             raise MessageError(f"that makes no {name}: {error}") from None
         return bytes(buffer)

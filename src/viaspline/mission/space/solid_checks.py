@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from viaspline.errors import with_article
 from viaspline.mission.shapes.obstacle import HAVING_HEIGHTS, Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
@@ -19,7 +20,8 @@ def height_faults(path: Path, obstacle: Obstacle) -> Iterator[UnplacedFault]:
     if obstacle.height_m is not None:
         low, high = obstacle.height_m
         if own is not None:
-            problem = f"a {own} has heights of its own"
+            what = "map of voxels" if own == "voxels" else own
+            problem = f"{with_article(what)} has heights of its own"
             yield UnplacedFault((*path, "height_m"), problem, "leave it out", at_key=True)
         elif low >= high:
             problem = f"its floor at {number(low, 6)} isn't below its roof at {number(high, 6)}"

@@ -8,7 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
-from viaspline.errors import MissionWarning, OutputError
+from viaspline.errors import MissionWarning, OutputError, with_article
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.saved.load_fleet_plan import PLANNED_FLEET_NAME
@@ -102,7 +102,9 @@ def _exported(
     """What the exports write into a file of their own."""
     if not isinstance(value, Plan | SpatialPlan):
         kind = type(value).__name__
-        raise OutputError(target, f"a {kind} isn't written as such a file; give a folder")
+        raise OutputError(
+            target, f"{with_article(kind)} isn't written as such a file; give a folder"
+        )
     opened("export")(value, target, name=name, origin=origin)
     return [target]
 
