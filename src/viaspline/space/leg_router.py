@@ -45,6 +45,12 @@ ROOM: Final = (0.3, 1.0, 3.0)
 
 LEAST_BODY_M: Final = 0.1
 
+DEARER: Final = 1.3
+"""Ways with more room that cost more, of the cheapest, aren't taken for any gentler corners."""
+
+NEARLY: Final = 1.18
+"""By so much at least a side has to be cheaper than that to be looked for with more room."""
+
 SAME_M: Final = 1e-3
 """Ways whose corners are nearer to each other are one."""
 
@@ -110,10 +116,18 @@ class LegRouter:
         gates = self.gates(leg)
         solid = self._in_the_way(laid)
         cheapest = self._cheapest(leg, solid)
-        ways = [cheapest]
-        if solid is not None and not len(gates):
-            ways += self._on_other_sides(leg, solid, cheapest.side)
-        return _different([*ways, *self._with_room(leg, gates, cheapest.side)])
+        most = DEARER * self._cost(leg, cheapest)
+        roomy = list(self._with_room(leg, gates, cheapest.side, most))
+        if solid is None or len(gates):
+            return _different([cheapest, *roomy])
+        ends = self._ends(leg)
+        past = seeds(self._router, solid, *ends, self.problem.required, self._norm)
+        ways = [TautWay(seed.side, seed.route.points[1:-1]) for seed in past]
+        for seed in past:
+            if seed.side != cheapest.side and NEARLY * seed.route.cost <= most:
+                one_side = gate(solid, *ends, [seed.side])
+                roomy += self._with_room(leg, one_side, seed.side, most)
+        return _different([cheapest, *ways, *roomy])
 
     def pulled(self, leg: int, way: Floats) -> Floats | None:
         """The corners of a way (n, 3) [m] of a leg pulled taut, (k, 3); None: it isn't free."""
@@ -150,13 +164,14 @@ class LegRouter:
     def _ends(self, leg: int) -> tuple[Floats, Floats]:
         return self.problem.vias[leg].at, self.problem.vias[leg + 1].at
 
-    def _on_other_sides(self, leg: int, solid: Solid, taken: PassingSide) -> list[TautWay]:
-        """The ways on the other sides of a solid."""
+    def _cost(self, leg: int, way: TautWay) -> float:
+        """What a way costs [m or s]."""
         first, last = self._ends(leg)
-        found = seeds(self._router, solid, first, last, self.problem.required, self._norm)
-        return [TautWay(seed.side, seed.route.points[1:-1]) for seed in found if seed.side != taken]
+        return float(way_cost(np.array(self._norm), np.array([first, *way.inner, last])))
 
-    def _with_room(self, leg: int, gates: Floats, side: PassingSide) -> Iterator[TautWay]:
+    def _with_room(
+        self, leg: int, gates: Floats, side: PassingSide, most: float
+    ) -> Iterator[TautWay]:
         """The cheapest ways that keep more than has to be: room for gentle corners.
 
         Where the length counts there are none: they are longer.
@@ -168,7 +183,7 @@ class LegRouter:
         body = max(kept + float(self.problem.world.packed.core[0]), LEAST_BODY_M)
         for share in ROOM:
             outcome = quick.find(first, last, kept + share * body, self._norm, gates)
-            if not isinstance(outcome, Found):
+            if not isinstance(outcome, Found) or outcome.cost > most:
                 return  # where there is no room for less, there is none for more
             yield TautWay(side, outcome.value.points[1:-1])
 
