@@ -6,35 +6,31 @@ least; then the curve is proven once more as a whole, with the upright legs of t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 
 from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
-from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import GaveUpError, NoPathError, PlanningError
+from viaspline.errors import GaveUpError, NoPathError
 from viaspline.kernels.arrays import Floats
-from viaspline.planning.problem.ledger import LedgerEntry
-from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
+from viaspline.space.laying.clear_route import ClearRoute, StuckLegError
 from viaspline.space.laying.corner_rounding import straight_span
 from viaspline.space.laying.gentle_turns import GentleTurns
 from viaspline.space.laying.laid_route import LaidRoute, RouteLegs
 from viaspline.space.laying.via_directions import via_directions
+from viaspline.space.led_route import RouteLayer
 from viaspline.space.leg_check import LegCheck
 from viaspline.space.part_of_path import part_of_path
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_solution import SpatialSolution
 from viaspline.space.weighed_ways import (
-    TautWay,
     WaysPast,
     away_from_things,
-    corner_radius,
     cost_of,
     least_radius,
-    weighed,
 )
 from viaspline.space.without_ground import without_ground
 
@@ -53,10 +49,10 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
         NoPathError: When there is none, proven.
         GaveUpError: When none was found.
     """
-    layer = _Layer(problem, router, LegCheck(problem, cache(router.gates)))
     legs = RouteLegs.left_to_the_spline(problem.places, _directions(problem), problem.shape)
+    layer = RouteLayer(problem, router, LegCheck(problem, cache(router.gates)))
     try:
-        found = layer.lay(legs, {})
+        found = layer.cheapest(legs)
     except StuckLegError as stuck:
         raise _gave_up(problem, stuck) from None
     first = problem.vias[0]
@@ -72,69 +68,6 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
     if not proof.holds:
         raise _upright_leg_blocked(problem, proof, airborne)
     return SpatialSolution(path, proof, ledger, airborne)
-
-
-@dataclass(frozen=True)
-class _LedRoute(ClearRoute):
-    """A route, and what the ledger says of the legs that are led round something."""
-
-    entries: Mapping[int, LedgerEntry]
-
-
-@dataclass(frozen=True, eq=False)
-class _Layer:
-    """Lays routes of a problem, each way past a thing looked for once."""
-
-    problem: SpatialProblem
-    router: WaysPast
-    check: LegCheck
-    known: dict[tuple[int, str | None], tuple[TautWay, LedgerEntry]] = field(default_factory=dict)
-
-    @property
-    def radius(self) -> float:
-        """Of curvature, to be had if there is room [m]."""
-        return corner_radius(self.problem)
-
-    def lay(self, legs: RouteLegs, before: Mapping[int, LedgerEntry]) -> _LedRoute:
-        """The route with what isn't clear of it led round.
-
-        Args:
-            legs: Of the route.
-            before: What the ledger says of those that are led round something already.
-
-        Raises:
-            NoPathError: When there is no way, proven.
-            GaveUpError: When none was found.
-            StuckLegError: When a leg can't be laid.
-        """
-        entries = dict(before)
-
-        def lead_round(leg: int, laid: Floats) -> Floats:
-            best, entries[leg] = self._way(leg, laid)
-            return best.inner
-
-        found = clear_route(legs, self.check, lead_round, self.radius)
-        return _LedRoute(found.legs, found.laid, entries)
-
-    def laid_anew(self, legs: RouteLegs, before: _LedRoute) -> _LedRoute:
-        """A route with some of its legs laid in another way; StuckLegError: it can't be."""
-        try:
-            return self.lay(legs, before.entries)
-        except PlanningError as error:
-            raise StuckLegError(0, np.array(error.where)) from None
-
-    def _way(self, leg: int, laid: Floats) -> tuple[TautWay, LedgerEntry]:
-        problem = self.problem
-        nearest = certify(
-            PiecewiseCubic(laid), problem.world, problem.clearance, radius=problem.radius
-        )
-        key = leg, nearest.obstacle
-        if key not in self.known:
-            first, last = problem.vias[leg], problem.vias[leg + 1]
-            best, candidates = weighed(problem, self.check, leg, self.router.ways(leg, laid))
-            members = () if nearest.obstacle is None else (nearest.obstacle,)
-            self.known[key] = best, LedgerEntry(members, (first.name, last.name), candidates)
-        return self.known[key]
 
 
 def _directions(problem: SpatialProblem) -> Floats:

@@ -16,12 +16,18 @@ from viaspline.curve.certificate import certify
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.ledger import Candidate, PassingSide
-from viaspline.space.laying.clear_route import Check, StuckLegError, tightened_leg
+from viaspline.space.laying.clear_route import (
+    LEAST_RADIUS_M,
+    Check,
+    StuckLegError,
+    tightened_leg,
+)
 from viaspline.space.laying.leg_polygon import LegPolygon
+from viaspline.space.laying.sooner_corners import sooner_corners
 from viaspline.space.laying.turn_ways import Away
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.timing.retime_in_space import retime_in_space
-from viaspline.space.timing.yaw_profile import FacingFixed, yaw_profile
+from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.trajectory import Trajectory
 
 GENTLEST_M: Final = 200.0
@@ -30,6 +36,10 @@ GENTLEST_M: Final = 200.0
 
 WIDER: Final = 1.25
 """Than the radius at which no speed is lost: corners that are moved outward get sharper."""
+
+
+HOPEFUL: Final = 1.2
+"""Ways that cost more, of the cheapest, aren't looked at for corners to be left out."""
 
 
 NEAR: Final = 4.0
@@ -89,7 +99,8 @@ def cost_of(problem: SpatialProblem) -> Callable[[Floats], float]:
 
 def law_of(problem: SpatialProblem, path: Path) -> Trajectory:
     """The fastest law along a curve alone, from rest to rest, wherever the body looks."""
-    return retime_in_space(path, problem.limits, (), yaw_profile(path, FacingFixed(0.0)))
+    ahead = YawProfile(np.array([0.0, path.length]), np.zeros(2))
+    return retime_in_space(path, problem.limits, (), ahead)
 
 
 def away_from_things(problem: SpatialProblem) -> Away:
@@ -136,52 +147,103 @@ class WeighedWay:
     cost: float
 
 
-def weighed(
-    problem: SpatialProblem, check: Check, leg: int, ways: Sequence[TautWay]
-) -> tuple[TautWay, tuple[Candidate, ...]]:
-    """The best of the ways of a leg, and all of them for the ledger.
-
-    Each is laid alone, from rest to rest, free in direction where no direction is asked for.
-
-    Args:
-        problem: What is asked.
-        check: What the curve has to pass.
-        leg: Which leg it is.
-        ways: Those to be weighed.
-
-    Raises:
-        StuckLegError: When none of them can be laid.
-    """
-    found = [_weigh(problem, check, leg, way) for way in ways]
+def cheapest(found: Sequence[WeighedWay]) -> tuple[TautWay, tuple[Candidate, ...]]:
+    """The cheapest of some ways, and all of them for the ledger."""
     best = min(range(len(found)), key=lambda k: found[k].cost)
-    if math.isinf(found[best].cost):
-        raise StuckLegError(leg, problem.places[leg])
     candidates = tuple(
         replace(one.candidate, chosen=True) if k == best else one.candidate
         for k, one in enumerate(found)
     )
-    return ways[best], candidates
+    return found[best].way, candidates
 
 
-def _weigh(problem: SpatialProblem, check: Check, leg: int, way: TautWay) -> WeighedWay:
-    vias = problem.vias[leg : leg + 2]
-    points = np.concatenate((vias[0].at[None], way.inner, vias[1].at[None]))
-    free = np.full(3, np.nan)
-    directions = np.array([free if via.direction is None else via.direction for via in vias])
-    radii = np.full(len(points), corner_radius(problem))
-    try:
-        polygon = tightened_leg(LegPolygon(points, directions, radii), leg, check)
-    except StuckLegError as stuck:
-        x, y, z = stuck.place.tolist()
-        why = f"it comes too near at ({x:.2f}, {y:.2f}, {z:.2f}) however tightly it turns"
-        nothing = Candidate(way.side, way.inner, np.empty((0, 4, 3)), impossible=why)
-        return WeighedWay(way, nothing, math.inf)
-    path = Path(polygon.spans()[0], [])
-    law = law_of(problem, path)
-    proof = certify(path, problem.world, problem.clearance, radius=problem.radius)
-    candidate = Candidate(
-        way.side, way.inner, np.asarray(path.spans), path.length, law.duration, proof.clearance,
-        float(path.max_curvature()[0]),
-    )  # fmt: skip
-    cost = law.duration if problem.objective == "time" else path.length
-    return WeighedWay(way, candidate, cost)
+@dataclass(frozen=True, eq=False)
+class LegScale:
+    """What ways of a leg cost: each laid alone, from rest to rest.
+
+    Attributes:
+        problem: What is asked.
+        check: What the curve has to pass.
+        leg: Which leg it is.
+    """
+
+    problem: SpatialProblem
+    check: Check
+    leg: int
+
+    def weighed(self, ways: Sequence[TautWay]) -> Sequence[WeighedWay]:
+        """Ways with what they cost.
+
+        Raises:
+            StuckLegError: When none of them can be laid.
+        """
+        found = [self._weighed(way) for way in ways]
+        if all(math.isinf(one.cost) for one in found):
+            raise StuckLegError(self.leg, self.problem.places[self.leg])
+        return found
+
+    def sooner(self, found: Sequence[WeighedWay]) -> Sequence[WeighedWay]:
+        """Ways with those of their corners alone with which they are the fastest.
+
+        Where the length counts corners cost nothing.
+        """
+        if self.problem.objective == "length":
+            return found
+        worth = HOPEFUL * min(one.cost for one in found)
+        return [self._sooner(one) if one.cost <= worth else one for one in found]
+
+    def _sooner(self, plain: WeighedWay) -> WeighedWay:
+        points = self._points(plain.way)
+        taken = sooner_corners(points, corner_radius(self.problem), self._time)
+        if len(taken) == len(points):
+            return plain
+        return self._weighed(TautWay(plain.way.side, taken[1:-1]))
+
+    def _points(self, way: TautWay) -> Floats:
+        """From via point to via point [m], (n, 3)."""
+        vias = self.problem.vias[self.leg : self.leg + 2]
+        return np.concatenate((vias[0].at[None], way.inner, vias[1].at[None]))
+
+    def _weighed(self, way: TautWay) -> WeighedWay:
+        problem = self.problem
+        try:
+            path = self._laid(self._points(way))
+        except StuckLegError as stuck:
+            x, y, z = stuck.place.tolist()
+            why = f"it comes too near at ({x:.2f}, {y:.2f}, {z:.2f}) however tightly it turns"
+            nothing = Candidate(way.side, way.inner, np.empty((0, 4, 3)), impossible=why)
+            return WeighedWay(way, nothing, math.inf)
+        law = law_of(problem, path)
+        proof = certify(path, problem.world, problem.clearance, radius=problem.radius)
+        candidate = Candidate(
+            way.side, way.inner, np.asarray(path.spans), path.length, law.duration,
+            proof.clearance, float(path.max_curvature()[0]),
+        )  # fmt: skip
+        cost = law.duration if problem.objective == "time" else path.length
+        return WeighedWay(way, candidate, cost)
+
+    def _time(self, points: Floats) -> float:
+        """How long a way takes [s]; infinite where its lines themselves don't pass."""
+        lines = self._polygon(points, LEAST_RADIUS_M)
+        if self.check(self.leg, lines.curve()) is not None:
+            return math.inf
+        try:
+            return law_of(self.problem, self._laid(points)).duration
+        except StuckLegError:
+            return math.inf
+
+    def _laid(self, points: Floats) -> Path:
+        """The curve through corners, as gentle as it can be.
+
+        Raises:
+            StuckLegError: When it isn't clear, however tight it is.
+        """
+        polygon = self._polygon(points, corner_radius(self.problem))
+        return Path(tightened_leg(polygon, self.leg, self.check).curve(), [])
+
+    def _polygon(self, points: Floats, radius: float) -> LegPolygon:
+        """Free in direction where no direction is asked for."""
+        free = np.full(3, np.nan)
+        vias = self.problem.vias[self.leg : self.leg + 2]
+        directions = np.array([free if via.direction is None else via.direction for via in vias])
+        return LegPolygon(points, directions, np.full(len(points), radius))

@@ -95,7 +95,7 @@ def test_what_passes_above_is_not_waited_for() -> None:
 
 def test_what_passes_at_every_height_is_waited_for() -> None:
     cart = {"name": "crane", "circle": {"center": [0, 0], "radius": 1},
-            "motion": {"from": [20, -8], "velocity_mps": [0, 1.4]}}  # fmt: skip
+            "motion": {"from": [20, -10], "velocity_mps": [0, 1.8]}}  # fmt: skip
     plan = planned(cart)
     (one,) = plan.waits
     assert one.obstacle == "crane"
@@ -249,7 +249,7 @@ def test_a_plan_knows_nothing_of_what_moves_unseen() -> None:
 
 def test_the_proof_and_the_waits_are_in_the_plan_and_the_flight_keeps_clear() -> None:
     cart = {"name": "crane", "circle": {"center": [0, 0], "radius": 1},
-            "motion": {"from": [20, -8], "velocity_mps": [0, 1.4]}}  # fmt: skip
+            "motion": {"from": [20, -10], "velocity_mps": [0, 1.8]}}  # fmt: skip
     plan = planned(cart)
     data = json.loads(spatial_plan_json(plan, "past"))
     assert data["certificate"]["moving"]["obstacle"] == "crane"

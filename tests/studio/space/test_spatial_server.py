@@ -225,7 +225,7 @@ def test_a_flight_is_told_with_its_heights_and_what_the_sensor_saw(
     start: Start, file: Path
 ) -> None:
     with start(file).client() as client:
-        client.edit()
+        whole(client, client.edit())
         run = client.ask("drive", "driven")
         exported = client.ask("export", "exported", kind="run.csv")
         picture = client.ask("export", "exported", kind="run.png")

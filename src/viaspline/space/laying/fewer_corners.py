@@ -47,13 +47,13 @@ def fewer_corners(points: Floats, corner: int, radius: float) -> Iterator[tuple[
             last = first + size - 1
             if np.linalg.norm(points[last] - points[first]) > WIDEST * radius:
                 continue
-            instead = _outside(points[first - 1 : last + 2], radius)
+            instead = outside_of(points[first - 1 : last + 2], radius)
             if instead is not None:
                 yield first, last, instead[None]
     yield corner, corner, points[:0]
 
 
-def _outside(points: Floats, radius: float) -> Floats | None:
+def outside_of(points: Floats, radius: float) -> Floats | None:
     """The place of one corner for those between the ends of a polyline; None: it is straight."""
     inner = points[1:-1]
     before, after = inner[0] - points[0], points[-1] - inner[-1]

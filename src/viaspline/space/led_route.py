@@ -1,0 +1,177 @@
+"""Routes whose legs are led round what stands on them, by their ways or by fewer corners of these.
+
+Tested through ``space/test_solve_route`` and ``space/test_plan_spatial``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Set
+from dataclasses import dataclass, field, replace
+from operator import attrgetter
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from viaspline.curve.certificate import certify
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import PlanningError
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
+from viaspline.space.laying.laid_route import RouteLegs
+from viaspline.space.leg_check import LegCheck
+from viaspline.space.spatial_problem import SpatialProblem
+from viaspline.space.weighed_ways import (
+    LegScale,
+    WaysPast,
+    cheapest,
+    corner_radius,
+    cost_of,
+)
+
+MOST_LEGS: Final = 8
+"""Of so many legs at most it is tried for each by itself which of its corners are better."""
+
+
+@dataclass(frozen=True)
+class LedRoute(ClearRoute):
+    """A route, and what the ledger says of the legs that are led round something."""
+
+    entries: Mapping[int, LedgerEntry]
+
+
+class LedWay(NamedTuple):
+    """A way of a leg that is led round something: its corners [m], (k, 3), and its ledger."""
+
+    inner: Floats
+    entry: LedgerEntry
+
+
+class LedWays(NamedTuple):
+    """The best taut way, and the best with fewer corners, which is no slower alone."""
+
+    taut: LedWay
+    sooner: LedWay
+
+
+@dataclass(frozen=True, eq=False)
+class RouteLayer:
+    """Lays routes of a problem, each way past a thing looked for once.
+
+    Attributes:
+        problem: What is asked.
+        router: Finds the ways past things.
+        check: What every leg has to pass.
+        take: Which of the ways of a leg it is led by.
+        known: Those that were found, by leg and thing.
+        led: Those by which legs are led, by leg.
+    """
+
+    problem: SpatialProblem
+    router: WaysPast
+    check: LegCheck
+    take: Callable[[LedWays], LedWay] = attrgetter("sooner")
+    known: dict[tuple[int, str | None], LedWays] = field(default_factory=dict)
+    led: dict[int, LedWays] = field(default_factory=dict)
+
+    @property
+    def radius(self) -> float:
+        """Of curvature, to be had if there is room [m]."""
+        return corner_radius(self.problem)
+
+    def cheapest(self, legs: RouteLegs) -> LedRoute:
+        """The route, each leg by whichever of its ways makes the whole of it cheaper.
+
+        Alone, fewer corners are no slower; with neighbours that go on from them they may be.
+
+        Args:
+            legs: Of the route, left to the spline.
+
+        Raises:
+            NoPathError: When there is no way, proven.
+            GaveUpError: When none was found.
+            StuckLegError: When a leg can't be laid.
+        """
+        try:
+            best = self.lay(legs, {})
+        except StuckLegError:  # what was free alone isn't with its neighbours
+            return replace(self, take=attrgetter("taut")).lay(legs, {})
+        cost = cost_of(self.problem)
+        least, taut = cost(best.laid.spans), frozenset[int]()
+        differ = [
+            leg for leg in sorted(best.entries) if self.led[leg].taut is not self.led[leg].sooner
+        ]
+        for which in _others(differ):
+            tried = taut ^ which
+            try:
+                other = self._led_by(legs, best, tried)
+            except (StuckLegError, PlanningError):
+                continue
+            if (price := cost(other.laid.spans)) < least:
+                best, least, taut = other, price, tried
+        return best
+
+    def lay(self, legs: RouteLegs, before: Mapping[int, LedgerEntry]) -> LedRoute:
+        """The route with what isn't clear of it led round.
+
+        Args:
+            legs: Of the route.
+            before: What the ledger says of those that are led round something already.
+
+        Raises:
+            NoPathError: When there is no way, proven.
+            GaveUpError: When none was found.
+            StuckLegError: When a leg can't be laid.
+        """
+        entries = dict(before)
+
+        def lead_round(leg: int, laid: Floats) -> Floats:
+            self.led[leg] = self._ways(leg, laid)
+            inner, entries[leg] = self.take(self.led[leg])
+            return inner
+
+        found = clear_route(legs, self.check, lead_round, self.radius)
+        return LedRoute(found.legs, found.laid, entries)
+
+    def laid_anew(self, legs: RouteLegs, before: LedRoute) -> LedRoute:
+        """A route with some of its legs laid in another way; StuckLegError: it can't be."""
+        try:
+            return self.lay(legs, before.entries)
+        except PlanningError as error:
+            raise StuckLegError(0, np.array(error.where)) from None
+
+    def _led_by(self, legs: RouteLegs, found: LedRoute, taut: Set[int]) -> LedRoute:
+        """A route led round the same things, some of its legs by their taut ways."""
+        entries = {}
+        for leg in found.entries:
+            ways = self.led[leg]
+            inner, entries[leg] = ways.taut if leg in taut else ways.sooner
+            legs = legs.led_round(leg, inner, self.radius)
+        return self.lay(legs, entries)
+
+    def _ways(self, leg: int, laid: Floats) -> LedWays:
+        problem = self.problem
+        nearest = certify(
+            PiecewiseCubic(laid), problem.world, problem.clearance, radius=problem.radius
+        )
+        key = leg, nearest.obstacle
+        if key not in self.known:
+            names = problem.vias[leg].name, problem.vias[leg + 1].name
+            members = () if nearest.obstacle is None else (nearest.obstacle,)
+            scale = LegScale(problem, self.check, leg)
+            plain = scale.weighed(self.router.ways(leg, laid))
+            best, candidates = cheapest(plain)
+            taut = sooner = LedWay(best.inner, LedgerEntry(members, names, candidates))
+            way, candidates = cheapest(scale.sooner(plain))
+            if way is not best:
+                sooner = LedWay(way.inner, LedgerEntry(members, names, candidates))
+            self.known[key] = LedWays(taut, sooner)
+        return self.known[key]
+
+
+def _others(differ: list[int]) -> Iterator[frozenset[int]]:
+    """Which legs are led by their other way at once: all of them, then each."""
+    if differ:
+        yield frozenset(differ)
+    if 1 < len(differ) <= MOST_LEGS:
+        yield from (frozenset([leg]) for leg in differ)
