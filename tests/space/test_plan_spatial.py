@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 import viaspline as vs
 from viaspline.errors import GaveUpError, NoPathError
 from viaspline.mission.model import Mission
+from viaspline.planning.problem.ledger import Candidate
+from viaspline.space.weighed_ways import SHARP, TautWay, WeighedWay, cheapest
 
 Floats = NDArray[np.float64]
 RADIUS, HALF, CLEARANCE = 0.5, 0.25, 1.0
@@ -245,3 +247,15 @@ def test_no_via_point_that_nobody_needs_makes_a_flight_sooner(beside: tuple[int,
     led["route"]["via"] = [[*beside, 20]]
     by_hand = vs.plan(vs.Mission.model_validate(led))
     assert alone.trajectory.duration <= by_hand.trajectory.duration * (1 + 2e-3)
+
+
+def test_a_way_that_turns_more_sharply_than_the_robot_counts_for_what_it_becomes() -> None:
+    """Its turns are laid anew, for up to a fifth more: of two ways that is the one not taken."""
+    way = TautWay("left", np.zeros((1, 3)))
+    nothing = np.empty((0, 4, 3))
+    sharp = WeighedWay(way, Candidate("left", way.inner, nothing, duration=39.4), 1.2 * 39.4)
+    gentle = WeighedWay(way, Candidate("right", way.inner, nothing, duration=39.7), 39.7)
+    slow = WeighedWay(way, Candidate("over", way.inner, nothing, duration=54.0), 54.0)
+    _, candidates = cheapest([sharp, gentle, slow])
+    assert [one.chosen for one in candidates] == [False, True, False]
+    assert [one.passed_over for one in candidates] == [SHARP, None, None]

@@ -22,6 +22,7 @@ from viaspline.space.laying.clear_route import (
     StuckLegError,
     tightened_leg,
 )
+from viaspline.space.laying.gentle_turns import ROUND, ROUND_DEARER
 from viaspline.space.laying.leg_polygon import LegPolygon
 from viaspline.space.laying.sooner_corners import sooner_corners
 from viaspline.space.laying.turn_ways import Away
@@ -40,6 +41,9 @@ WIDER: Final = 1.25
 
 HOPEFUL: Final = 1.2
 """Ways that cost more, of the cheapest, aren't looked at for corners to be left out."""
+
+
+SHARP: Final = "turns more sharply than the robot itself"
 
 
 NEAR: Final = 4.0
@@ -139,7 +143,9 @@ class WeighedWay:
     Attributes:
         way: The way.
         candidate: What the ledger says of it.
-        cost: Time or length by which it is chosen; infinite if it can't be taken.
+        cost: By what it is chosen: length, or time, which counts for more where it turns more
+            sharply than the robot itself, for then turns are laid anew; infinite if it can't be
+            taken.
     """
 
     way: TautWay
@@ -150,11 +156,14 @@ class WeighedWay:
 def cheapest(found: Sequence[WeighedWay]) -> tuple[TautWay, tuple[Candidate, ...]]:
     """The cheapest of some ways, and all of them for the ledger."""
     best = min(range(len(found)), key=lambda k: found[k].cost)
-    candidates = tuple(
-        replace(one.candidate, chosen=True) if k == best else one.candidate
-        for k, one in enumerate(found)
-    )
-    return found[best].way, candidates
+    least = found[best].candidate.duration
+    candidates = []
+    for k, one in enumerate(found):
+        words = None
+        if one.cost > found[best].cost and (one.candidate.duration or math.inf) < (least or 0.0):
+            words = SHARP
+        candidates.append(replace(one.candidate, chosen=k == best, passed_over=words))
+    return found[best].way, tuple(candidates)
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,16 +228,23 @@ class LegScale:
             way.side, way.inner, np.asarray(path.spans), path.length, law.duration,
             proof.clearance, float(path.max_curvature()[0]),
         )  # fmt: skip
-        cost = law.duration if problem.objective == "time" else path.length
-        return WeighedWay(way, candidate, cost)
+        return WeighedWay(way, candidate, self._cost(path, law))
+
+    def _cost(self, path: Path, law: Trajectory) -> float:
+        """By what a curve with its law is chosen."""
+        if self.problem.objective == "length":
+            return path.length
+        sharp = float(path.max_curvature()[0]) * ROUND * least_radius(self.problem) > 1.0
+        return law.duration * (ROUND_DEARER if sharp else 1.0)
 
     def _time(self, points: Floats) -> float:
-        """How long a way takes [s]; infinite where its lines themselves don't pass."""
+        """What a way costs; infinite where its lines themselves don't pass."""
         lines = self._polygon(points, LEAST_RADIUS_M)
         if self.check(self.leg, lines.curve()) is not None:
             return math.inf
         try:
-            return law_of(self.problem, self._laid(points)).duration
+            path = self._laid(points)
+            return self._cost(path, law_of(self.problem, path))
         except StuckLegError:
             return math.inf
 
