@@ -63,7 +63,7 @@ function command(app, event, isTyping) {
 function onKey(app, event) {
   const { store, scene, pointer } = app;
   if (event.key === "PageUp" || event.key === "PageDown") return !!store.selection && app.space.lift(store.selection, event.key === "PageUp" ? 1 : -1, event.shiftKey);
-  if (event.key === "Tab") return next(app, event.shiftKey ? -1 : 1);
+  if (event.key === "Tab") return document.activeElement === scene.canvas && next(app, event.shiftKey ? -1 : 1);
   if (event.key === "Enter") {
     if (store.tool === "measure" && !scene.cross) app.measure.close();
     else if (scene.draft?.corners && !scene.cross) pointer.drawing.close();
