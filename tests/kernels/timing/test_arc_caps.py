@@ -43,8 +43,8 @@ def test_the_cap_of_an_arc_is_below_what_its_curvature_allows(dimension: int, se
     turned = np.zeros(len(along), bool)
     for rest in distances[rests]:  # it turns by more than a right angle within a millimetre
         turned |= np.abs(along - rest) < 1e-3
-        before, after = np.searchsorted(along, [rest - 6e-4, rest + 6e-4]) + [-1, 0]
-        assert d1[before] @ d1[after] < 0.0
+        before, after = np.searchsorted(along, (rest - 6e-4, rest + 6e-4)).tolist()
+        assert d1[before - 1] @ d1[after] < 0.0
     arc = np.clip(np.searchsorted(distances, along) - 1, 0, len(caps) - 1)
     edge = np.abs(along - distances[arc]) < 1e-4
     edge |= turned | (np.abs(along - distances[arc + 1]) < 1e-4)
