@@ -124,7 +124,8 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
 
     now = time(run.laid.spans, run.laid.joints)
     known = now / (1.0 + GENTLE_SHARE) if least is None else least
-    price = RunPrice(time, now, before, known, pace.slowing)
+    slowing = pace.slowing if needs.budget is None else np.inf  # under way there is no time for it
+    price = RunPrice(time, now, before, known, slowing)
     least_radius = max(pace.widest_radius, (1.0 + SHARPER) * needs.outer_radius)
     fast = 1.0 / least_radius if pace.widest_radius > 0.0 else 0.0
     for bent in gentle_strips(run, problem.world, strip_body(needs), price):
