@@ -76,7 +76,7 @@ def test_the_figures_bound_dense_samples_and_are_attained(seed: int, jerk: float
     speed = np.hypot(*first.T)
     cross = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
     sound = speed > 1e-2 * speed.max()  # where differences are worth something
-    for turn in found.turns_on_spot:  # what is turned within a millimetre is no bend
+    for turn in found.turns_on_spot:  # what is turned within three millimetres is no bend
         sound &= np.abs(path.distance(u) - turn.place.distance) > 2e-3
     curvature = np.abs(cross[sound]) / speed[sound] ** 3
     at = np.asarray(law.speed_at(path.distance(u[sound])))

@@ -62,7 +62,7 @@ def corners(path: PiecewiseCubic) -> tuple[Floats, Floats]:
 def cusps_of(path: PiecewiseCubic) -> Floats:
     """Parameters of the cusps inside of the spans of a path, in order, shape (k,).
 
-    What turns by more than a right angle within a millimetre is one.
+    What turns by more than a right angle within three millimetres is one.
 
     Args:
         path: Of its curves in space, the ground track counts.

@@ -3,8 +3,8 @@
 The derivative is a quadratic. Where it is zero, it goes through zero along the second derivative,
 so the tangent turns by half a turn; unless the second derivative is zero as well, and it doesn't.
 
-What turns by more than a right angle within a millimetre of its way is as good as a cusp: a robot
-can't but stand there and turn.
+What turns by more than a right angle within three millimetres of its way is as good as a cusp: a
+robot can't but stand there and turn.
 
 Tested through ``machine/test_turns_on_spot``.
 """
