@@ -40,15 +40,21 @@ ROUNDS = 4
 
 
 @inner
+def _goes_back(spans: Floats, k: int, w: float, beside: float) -> bool:
+    """Whether a span turns by more than a right angle from before a parameter to behind it."""
+    along = 0.0
+    for axis in range(spans.shape[2]):
+        before = first_derivative(spans, k, axis, w - beside)
+        along += before * first_derivative(spans, k, axis, w + beside)
+    return along < 0.0
+
+
+@inner
 def turns_back(spans: Floats, k: int, w: float) -> bool:
     """Whether the derivative is zero there and opposite a little before and a little after."""
     if speed_at(spans, k, w) > STANDSTILL * speed_bound(spans, k):
         return False
-    across = 0.0
-    for axis in range(spans.shape[2]):
-        before = first_derivative(spans, k, axis, w - SAME_CUSP)
-        across += before * first_derivative(spans, k, axis, w + SAME_CUSP)
-    return across < 0.0
+    return _goes_back(spans, k, w, SAME_CUSP)
 
 
 @inner
@@ -107,11 +113,7 @@ def _nearly_turns_back(spans: Floats, k: int, w: float) -> bool:
     beside = _beside(spans, k, w)
     if not beside < w < 1.0 - beside or speed_at(spans, k, w) * beside > turned_within(spans, k):
         return False
-    along = 0.0
-    for axis in range(spans.shape[2]):
-        before = first_derivative(spans, k, axis, w - beside)
-        along += before * first_derivative(spans, k, axis, w + beside)
-    return along < 0.0
+    return _goes_back(spans, k, w, beside)
 
 
 @kernel

@@ -63,21 +63,16 @@ def _put(to: PackedOrders, at: int, source: PackedOrders, i: int, crossing: int)
 @inner
 def _put_all(to: PackedOrders, old: PackedOrders, number: Ints, robot: int) -> None:
     """Copy the bars of a robot that keeps them all, an array after the other."""
-    begin, end, more = old.first[robot], old.first[robot + 1], to.first[robot] - old.first[robot]
+    begin, end = old.first[robot], old.first[robot + 1]
+    at, behind = to.first[robot], to.first[robot + 1]
+    to.place[at:behind] = old.place[begin:end]
+    to.other[at:behind] = old.other[begin:end]
+    to.passed[at:behind] = old.passed[begin:end]
+    to.comes[at:behind] = old.comes[begin:end]
+    to.other_comes[at:behind] = old.other_comes[begin:end]
+    to.since[at:behind] = old.since[begin:end]
     for i in range(begin, end):
-        to.place[i + more] = old.place[i]
-    for i in range(begin, end):
-        to.other[i + more] = old.other[i]
-    for i in range(begin, end):
-        to.passed[i + more] = old.passed[i]
-    for i in range(begin, end):
-        to.crossing[i + more] = number[old.crossing[i]]
-    for i in range(begin, end):
-        to.comes[i + more] = old.comes[i]
-    for i in range(begin, end):
-        to.other_comes[i + more] = old.other_comes[i]
-    for i in range(begin, end):
-        to.since[i + more] = old.since[i]
+        to.crossing[at + i - begin] = number[old.crossing[i]]
 
 
 @inner
