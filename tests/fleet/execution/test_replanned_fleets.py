@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,107 +13,11 @@ from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.errors import GaveUpError, GeometryError, PlanningError
-from viaspline.fleet.execution import fleet_under_way
-from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
 from viaspline.fleet.execution.ways_from_rest import rest_of_route
-from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.route_spec import Route
 
-APART_M = 2.0  # between centres: discs of half a metre, and a metre between them
-KINDS = {"cart": {"radius_m": 0.5, "clearance_m": 0.1, "max_speed_mps": 2.0}}
-PERIOD_S = 0.5
-
-
-def fleet(*routes: Any, **keys: Any) -> vs.Fleet:
-    robots = [{"name": f"r{k}", "route": route} for k, route in enumerate(routes)]
-    return vs.Fleet.model_validate({"separation_m": 1.0, "robots": KINDS, "fleet": robots, **keys})
-
-
-CROSS = ({"start": [0, 0], "goal": [40, 0]}, {"start": [20, -20], "goal": [20, 20]})
-ASIDE = {"start": [0, 40], "goal": [40, 40]}
-
-
-@dataclass
-class Drive:
-    """Robots that do what the navigator tells them, and are looked at every half a second.
-
-    A robot that is dead stands where it died.
-    """
-
-    nav: vs.FleetNavigator
-    time: float = 0.0
-
-    def __post_init__(self) -> None:
-        self.place = dict.fromkeys(self.nav.names, 0.0)
-        self.speed = dict.fromkeys(self.nav.names, 0.0)
-        self.holds = dict.fromkeys(self.nav.names, 0.0)
-        self.number = dict.fromkeys(self.nav.names, 0)
-        self.at: dict[str, Any] = {}
-        self.nearest = np.inf
-        self.granted: dict[str, float] = {}
-        self.heard = -1.0
-
-    def driving(self) -> list[str]:
-        """Those that have a plan; the others stand at their starts."""
-        return [name for name in self.nav.names if name in self.nav.paths]
-
-    def where(self) -> dict[str, np.ndarray]:
-        paths = self.nav.paths
-        for name in self.driving():
-            path = paths[name].path
-            self.at[name] = np.asarray(path.at_distance(min(self.place[name], path.length)))
-        return self.at
-
-    def step(self, dead: tuple[str, ...] = ()) -> dict[str, vs.FleetCommand]:
-        reports = [
-            vs.ProgressReport(
-                name, self.time, self.place[name], self.speed[name],
-                self.place[name] >= self.nav.paths[name].path.length - 1e-6,
-                self.holds[name], self.heard, self.number[name],
-            )
-            for name in self.driving() if name not in dead
-        ]  # fmt: skip
-        commands, self.nav = self.nav.step(reports, self.time)
-        assert not [one for one in self.nav.events if one.kind == "refused"]
-        self.heard = self.time
-        for name, command in commands.items():
-            if name in dead:
-                continue
-            if command.path != self.number[name]:
-                self.number[name], self.place[name] = command.path, 0.0
-                self.speed[name] = self.holds[name] = 0.0
-            stops = self.place[name] + self.speed[name] ** 2 / 2.0
-            if command.granted >= self.holds[name] or stops <= command.granted:
-                self.holds[name] = command.granted
-            self.place[name] = max(self.place[name], min(command.distance, self.holds[name]))
-            self.speed[name] = command.speed
-        self.time += PERIOD_S
-        at = np.array(list(self.where().values()))
-        gaps = np.hypot(*np.moveaxis(at[:, None] - at[None], -1, 0)) + 9.0 * np.eye(len(at))
-        self.nearest = min(self.nearest, float(gaps.min()))
-        return commands
-
-    def take(self, nav: vs.FleetNavigator) -> None:
-        """A navigator of a fleet that was changed."""
-        self.nav = nav
-        for name in nav.names:
-            for table in (self.place, self.speed, self.holds):
-                table.setdefault(name, 0.0)
-            self.number.setdefault(name, 0)
-
-    def until(self, seconds: float, dead: tuple[str, ...] = ()) -> None:
-        while self.time < seconds and not self.nav.reached:
-            self.step(dead)
-
-
-def start(*routes: Any, **keys: Any) -> Drive:
-    plan = vs.plan_fleet(fleet(*routes, **keys))
-    assert plan.served
-    return Drive(vs.FleetNavigator(plan, period=PERIOD_S))
-
-
-def member(name: str, route: Any) -> FleetMember:
-    return FleetMember(name, fleet(route).members[0].mission)
+sys.path.insert(0, str(Path(__file__).parent))
+from stepped_fleets import APART_M, ASIDE, CROSS, PERIOD_S, Drive, fleet, member, start
 
 
 def test_a_robot_that_is_added_under_way_passes_the_others_and_nobody_else_is_touched() -> None:
@@ -164,124 +69,6 @@ def test_a_robot_that_is_to_rest_on_anothers_way_passes_before_it_or_is_refused(
     assert "r0" in found.value.obstacles
     with pytest.raises(GeometryError, match="there is a robot 'r0' already"):
         drive.nav.with_robot(member("r0", ASIDE))
-
-
-def test_who_waits_for_a_dead_robot_goes_round_it() -> None:
-    drive = start(*CROSS, ASIDE)
-    while drive.place["r0"] < 20.0:
-        drive.step()
-    drive.take(drive.nav.dead("r0", drive.place["r0"]))
-    assert drive.nav.blocked == {"r1": "r0"}
-    drive.until(40.0, dead=("r0",))
-    assert not drive.nav.reached
-    place = drive.place["r1"]
-    drive.take(drive.nav.replanned())
-    assert drive.nav.blocked == {}
-    event = drive.nav.events[-1]
-    assert (event.kind, event.name, event.at_m) == ("re-planned", "r1", pytest.approx(place))
-    begins = np.asarray(drive.nav.paths["r1"].path.at_distance(0.0))
-    assert begins == pytest.approx([20.0, -20.0 + place])
-    drive.until(100.0, dead=("r0",))
-    assert drive.nav.reached
-    assert drive.nearest >= APART_M - 1e-6
-    assert drive.at["r1"] == pytest.approx([20.0, 20.0])
-
-
-def test_nobody_rests_in_the_way_of_one_that_waits_for_a_dead_robot() -> None:
-    """The dead one may be carried off, and the other goes on: it touched who rested there."""
-    drive = start(*CROSS)
-    while drive.place["r0"] < 20.0:
-        drive.step()
-    drive.take(drive.nav.dead("r0", drive.place["r0"]))
-    assert drive.nav.blocked == {"r1": "r0"}
-    drive.take(drive.nav.with_robot(member("new", {"start": [30, 10], "goal": [20, 10]})))
-    assert drive.nav.blocked == {"r1": "r0", "new": "r1"}
-    drive.until(60.0, dead=("r0",))
-    drive.take(drive.nav.without("r0"))
-    while not drive.nav.reached:
-        drive.step(dead=("r0",))
-        assert np.hypot(*(drive.where()["r1"] - drive.at["new"])) >= APART_M - 1e-6
-        assert drive.time < 120.0
-
-
-def test_a_robot_joins_though_another_waits_for_a_dead_one_that_is_to_wait_for_it_farther_on() -> (
-    None
-):
-    """The dead one stands where both paths meet first; where they meet again it isn't yet."""
-    there_and_back = {"start": [20, -12], "via": [[20, 8], [23, 8]], "goal": [23, -12]}
-    routes = ({"start": [0, 0], "goal": [40, 0]}, {**there_and_back, "depart_s": 15})
-    drive = start(*routes, spline={"tension": 1})
-    while drive.place["r0"] < 19.5:
-        drive.step()
-    drive.take(drive.nav.dead("r0", drive.place["r0"]))
-    assert drive.nav.blocked == {"r1": "r0"}
-    drive.take(drive.nav.with_robot(member("new", {"start": [0, 40], "goal": [40, 40]})))
-    drive.until(60.0, dead=("r0",))
-    assert drive.place["new"] >= 40.0 - 1e-6
-
-
-def test_who_is_still_on_its_way_to_where_it_has_to_wait_is_left_for_later() -> None:
-    drive = start(*CROSS)
-    drive.until(2.0)
-    drive.take(drive.nav.dead("r0", 40.0))  # it may be anywhere
-    assert drive.nav.blocked == {"r1": "r0"}
-    same = drive.nav.replanned()
-    assert same.blocked == {"r1": "r0"}
-    assert same.paths["r1"] is drive.nav.paths["r1"]
-
-
-def test_who_has_no_way_round_a_dead_robot_stays_and_is_named(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    walls = [
-        [[-2, 2], [42, 2], [42, 3], [-2, 3]],
-        [[-2, -3], [42, -3], [42, -2], [-2, -2]],
-        [[42, -3], [43, -3], [43, 3], [42, 3]],
-    ]
-    world = {"known": [{"polygon": one} for one in walls]}
-    one = {"start": [2, 0], "goal": [40, 0]}
-    drive = start(one, {"start": [-8, 0], "goal": [36, 0], "depart_s": 1}, world=world)
-    drive.until(8.0)
-    drive.take(drive.nav.dead("r0", drive.place["r0"]))
-    drive.until(60.0, dead=("r0",))
-    nav = drive.nav.replanned()
-    assert nav.blocked == {"r1": "r0"}
-    event = nav.events[-1]
-    assert (event.kind, event.name) == ("has no way", "r1")
-    assert "r0" in event.message
-    with monkeypatch.context() as patch:  # as long as nothing is otherwise it isn't sought again
-        patch.delattr(fleet_under_way, "laid_now")
-        drive.take(nav)
-        drive.until(62.0, dead=("r0",))
-        assert drive.nav.replanned().events[-1].message == event.message
-    drive.take(drive.nav.without("r0"))  # it is carried off
-    drive.place["r0"] = 0.0
-    drive.until(120.0, dead=("r0",))
-    assert drive.nav.reached
-
-
-def test_robots_in_each_others_way_dont_take_turns_for_ever(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Seed 447 of the crowds: one had no way, and who stood behind it got one again and again."""
-    behind = {"start": [20, -24], "goal": [24, 24], "depart_s": 2}
-    drive = start(*CROSS, behind)
-    drive.until(2.0)
-    drive.take(drive.nav.dead("r0", 40.0))
-    drive.until(60.0, dead=("r0",))
-    assert drive.nav.blocked == {"r1": "r0", "r2": "r1"}
-    laid: list[str] = []
-
-    def laid_anew(fleet: FleetUnderWay, name: str) -> FleetUnderWay:
-        laid.append(name)
-        if name == "r1":
-            raise GaveUpError("'r2' is in its way", where=np.zeros(2), remedy="", tried=())
-        return fleet
-
-    monkeypatch.setattr(FleetUnderWay, "_laid_anew", laid_anew)
-    events = drive.nav.replanned().events
-    assert laid == ["r1", "r2", "r1"]
-    assert [(one.kind, one.name) for one in events if one.name == "r1"] == [("has no way", "r1")]
 
 
 def test_a_robot_is_sent_elsewhere_from_where_it_was_asked_to_stop() -> None:

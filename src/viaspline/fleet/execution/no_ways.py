@@ -1,6 +1,6 @@
 """Robots under way for which no path was found, and among what: the same isn't sought twice.
 
-Tested through ``fleet/execution/test_replanned_fleets``.
+Tested through ``fleet/execution/test_dead_robots``.
 """
 
 from __future__ import annotations
