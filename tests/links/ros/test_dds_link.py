@@ -47,12 +47,13 @@ def until(happens: Callable[[], Any], seconds: float = 60.0) -> bool:
 
 
 def said_until(peer: subprocess.Popen[str], last: str, do: Callable[[], None]) -> str:
-    """Do something again and again until a process says what is waited for; its last line."""
+    """Do something again and again until a process says what is waited for; its last whole line."""
     newest = [""]
 
     def read(said: Iterable[str]) -> None:
         for line in said:
-            newest[0] = line.strip()
+            if line.endswith("\n"):  # it may be told to go in the middle of one
+                newest[0] = line.strip()
 
     assert peer.stdout is not None
     reader = threading.Thread(target=read, args=[peer.stdout])
