@@ -1,7 +1,4 @@
-"""The heading at every via point: what each leg costs from each heading to each other one.
-
-Tested through ``planning/methods/test_ordered``.
-"""
+"""The heading at every via point: what each leg costs from each heading to each other one."""
 
 from __future__ import annotations
 
@@ -11,14 +8,16 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import kernel
+from viaspline.kernels.turning.needed_turns import needed_turns
 from viaspline.kernels.turning.settled_lines import FINE, HEADING, SIDE
-from viaspline.kernels.turning.turn_sequence import turn_sequence
 from viaspline.kernels.turning.turn_spans import turn_sequence_length
 
 
 @kernel
 def leg_lengths(bends: Floats, starts: Floats, goals: Floats, ramp: float) -> Floats:
     """Lengths of a leg from every heading at its start to every heading at its goal.
+
+    Bends that the others make needless are left out, as they are where the leg is laid.
 
     Args:
         bends: The leg's row of bends, see ``kernels.turning.settled_lines``, (n, 6).
@@ -28,7 +27,7 @@ def leg_lengths(bends: Floats, starts: Floats, goals: Floats, ramp: float) -> Fl
 
     Returns:
         (k, l, 2, 2) [m]: leaving to the left or to the right, arriving in a left or in a right
-        turn; infinite where there is no such turn_sequence.
+        turn; infinite where there are no such turns.
     """
     row = bends.copy()
     last = bends.shape[0] - 1
@@ -44,10 +43,10 @@ def leg_lengths(bends: Floats, starts: Floats, goals: Floats, ramp: float) -> Fl
                         continue
                     row[0, SIDE] = 0.0 if math.isnan(starts[i]) else 1.0 - 2.0 * a
                     row[last, SIDE] = 0.0 if math.isnan(goals[j]) else 1.0 - 2.0 * b
-                    lines, turns, apexes, ramps, state, _ = turn_sequence(row, False, ramp)
+                    left, lines, turns, apexes, ramps, state, _ = needed_turns(row, False, ramp)
                     if state == FINE:
                         lengths[i, j, a, b] = turn_sequence_length(
-                            row, False, lines, turns, apexes, ramps
+                            row[left], False, lines, turns, apexes, ramps
                         )
     return lengths
 
