@@ -40,7 +40,7 @@ def problem(known: Any, start: Any, goal: Any, **robot: Any) -> TurnProblem:
     path = DrivenProblem(
         sequence, asked.world, asked.requirements, asked.router, cleared=ClearSpline().lay(asked)
     )
-    return TurnProblem(path, path.least_radii[-1])
+    return TurnProblem(path, path.least_radii[-1], path.spots)
 
 
 def pen(**robot: Any) -> TurnProblem:

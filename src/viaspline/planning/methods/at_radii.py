@@ -31,7 +31,7 @@ class AtRadii:
         tried: list[str] = []
         outcome: Outcome[SplinePath] = GaveUp(())
         for rho in problem.searched_radii:
-            outcome = first_settled(self.methods, TurnProblem(problem, rho), bound)
+            outcome = first_settled(self.methods, TurnProblem(problem, rho, problem.spots), bound)
             if isinstance(outcome, Found):
                 return outcome
             tried += outcome.tried if isinstance(outcome, GaveUp) else []

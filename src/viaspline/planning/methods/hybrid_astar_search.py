@@ -39,7 +39,7 @@ class HybridAStar:
         """See ``Method``."""
         path, rho = problem.path, problem.rho
         chains = via_route_chains(
-            path.sequence, path.world, path.requirements, rho, RAMP * rho, path.spots,
+            path.sequence, path.world, path.requirements, rho, RAMP * rho, problem.spots,
             WorkBudget(self.max_poses_s), self.efforts, [sides.closed for sides in path.sides],
         )  # fmt: skip
         if isinstance(chains, NotFound):

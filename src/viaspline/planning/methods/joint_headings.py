@@ -38,7 +38,8 @@ class JointHeadings:
         """See ``Method``."""
         path = problem.path
         bound = path.requirements.objective.metres(bound)
-        legs = legs_of(path.bends.turning(problem.rho), path.spots, self.headings)
+        bends = path.bends.turning(problem.rho)
+        legs = legs_of(bends, problem.spots, self.headings, path.walls)
         closed = path.bends.closed
         costs = costs_between(legs, path.requirements)
         as_it_is, pushed = (

@@ -12,6 +12,7 @@ from viaspline.planning.methods.hybrid_astar_search import HybridAStar
 from viaspline.planning.methods.joint_headings import JointHeadings
 from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
 from viaspline.planning.methods.other_sides import OtherSides
+from viaspline.planning.methods.rounder_turns import RounderTurns
 from viaspline.planning.methods.spline_as_is import SplineAsItIs
 from viaspline.planning.methods.spline_led_round import SplineLedRound
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
@@ -25,12 +26,12 @@ PathMethod = Method[DrivenProblem, SplinePath]
 SPLINE_METHODS: tuple[PathMethod, ...] = (SplineLedRound(),)
 """For the paper's curve, and for one that climbs: turns are flat."""
 
-FEW_HEADINGS = JointHeadings(max_rows=100, max_pushed_rows=10, max_pushed_pairs=6, headings=10)
+FEW_HEADINGS = JointHeadings(max_rows=200, max_pushed_rows=30, max_pushed_pairs=16, headings=16)
 
 DISC_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
     BentGently(OtherSides((
-        TurnsOnShortest(),
+        RounderTurns(TurnsOnShortest(), FEW_HEADINGS),
         AtRadii((FEW_HEADINGS,)),
         SplineLedRound(),
     ))),
@@ -40,7 +41,7 @@ DISC_METHODS: tuple[PathMethod, ...] = (
 BODY_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
     BentGently(OtherSides((
-        TurnsOnShortest(),
+        RounderTurns(TurnsOnShortest(), FEW_HEADINGS),
         AtRadii((
             NextHomotopyClasses(),
             JointHeadings(),

@@ -32,6 +32,6 @@ class SplineAsItIs:
             return Found(spline_path, math.inf, is_settled=False)
         if needs.has_own_tension:
             return Found(spline_path, problem.cost(spline_path))
-        is_last = problem.kept_lanes.are_any or not problem.is_round(spline_path.spans)
+        is_last = problem.kept_lanes.are_any or not problem.is_round(spline_path)
         cost = math.inf if is_last else problem.cost(spline_path)
         return Found(spline_path, cost, is_settled=False)

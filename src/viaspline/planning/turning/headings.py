@@ -11,10 +11,11 @@ Tested through ``planning/methods/test_ordered``.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
+from types import MappingProxyType
 
 import numpy as np
 
@@ -29,6 +30,7 @@ Lay = Callable[[int, Bends], TurnPath | None]  # a leg, and its bends
 
 HEADING_COUNT = 36  # that are tried at a via point
 STARTS_AT_ONCE = 6  # of the headings of a leg, of which a search is stopped no sooner than after
+NO_WALLS: Mapping[int, float] = MappingProxyType({})
 FINER_TURNS = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
 
 
@@ -80,7 +82,10 @@ class Poses:
 
 
 def legs_of(
-    bends: Bends, spots: Collection[int], count: int = HEADING_COUNT
+    bends: Bends,
+    spots: Collection[int],
+    count: int = HEADING_COUNT,
+    walls: Mapping[int, float] = NO_WALLS,
 ) -> tuple[HeadingLeg, ...]:
     """The legs of a row of bends.
 
@@ -88,6 +93,7 @@ def legs_of(
         bends: The row.
         spots: Via points at which the robot may turn on the spot.
         count: Headings that are tried at a via point.
+        walls: The headings of walls that via points lie close beside, which are among those [rad].
     """
     vias = bends.closed + int(bends.vias.max()) + 1
     places = [bends.places(via) for via in range(vias - bends.closed)]
@@ -95,21 +101,25 @@ def legs_of(
     if bends.closed:
         rows = np.vstack((rows, rows[:1]))
         places.append(len(rows) - 1)
-    headings = [_headings(bends, via, vias, spots, count) for via in range(vias)]
+    headings = [_headings(bends, via, vias, spots, count, walls) for via in range(vias)]
     return tuple(
         HeadingLeg(rows[a : b + 1].copy(), headings[k], headings[k + 1])
         for k, (a, b) in enumerate(pairwise(places))
     )
 
 
-def _headings(bends: Bends, via: int, vias: int, spots: Collection[int], count: int) -> Floats:
+def _headings(
+    bends: Bends, via: int, vias: int, spots: Collection[int], count: int,
+    walls: Mapping[int, float],
+) -> Floats:  # fmt: skip
     """The headings that a via point may have [rad]."""
     is_end = not bends.closed and via in (0, vias - 1)
     if is_end:
         return bends.rows[[bends.places(via)], HEADING]
-    if via % (vias - bends.closed) in spots:
+    via %= vias - bends.closed
+    if via in spots:
         return np.array([math.nan])
-    return np.arange(count, dtype=np.float64) * (math.tau / count)
+    return walls.get(via, 0.0) + np.arange(count, dtype=np.float64) * (math.tau / count)
 
 
 def costs_between(legs: Sequence[HeadingLeg], requirements: Requirements) -> Floats:

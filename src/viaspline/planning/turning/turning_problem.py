@@ -5,6 +5,7 @@ Tested through ``planning/methods/test_ordered``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -43,6 +44,9 @@ LEAST_FREE_TURN_RADIUS = 0.5
 ROOMY_TURN_RADIUS = 2.0  # of turns where there is room, even if sharper ones are as fast
 MUCH_LOST = 1.07  # time of a leg, over that of a straight line
 LEAST_REQUIRED_M = 1e-3  # that these are of
+BESIDE_WALL = 0.25  # beyond the required distance, in such distances: a via point is beside a wall
+GRADIENT_STEP = 1e-3  # of the required distance, about a place, to tell the heading of its wall
+AXES = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
 
 LayTurns = Callable[[Bends, World, Requirements], TurnPath | None]
 
@@ -71,10 +75,8 @@ class TurningProblem(PathProblem):
         if self.requirements.turn_radius is not None:
             return (least,)
         wide = tuple(part * self.requirements.required for part in FREE_TURN_RADII)
-        if self._takes_wide_turns:
-            return (*wide, least)
-        own = OVERSHOOT * self.requirements.outer_radius
-        return (own, least, *reversed(wide)) if own > least else (least, *reversed(wide))
+        sharp = (self.own_radius, least) if self.own_radius > least else (least,)
+        return (*wide, *sharp) if self._takes_wide_turns else (*sharp, *reversed(wide))
 
     @property
     def sharpest(self) -> float:
@@ -88,6 +90,11 @@ class TurningProblem(PathProblem):
         if len(radii) == 1:
             return radii
         return radii[1:] if self._takes_wide_turns else radii[:2]
+
+    @property
+    def own_radius(self) -> float:
+        """The least radius of turns that are no sharper than the robot's own body [m]."""
+        return OVERSHOOT * self.requirements.outer_radius
 
     @property
     def _takes_wide_turns(self) -> bool:
@@ -127,6 +134,20 @@ class TurningProblem(PathProblem):
             if where == "vias" or (where == "stations" and via.dwell > 0.0)
         }
 
+    @cached_property
+    def walls(self) -> dict[int, float]:
+        """The headings of the walls that via points lie close beside [rad].
+
+        There a turn may have room if it begins or ends along the wall, and no other.
+        """
+        places = np.array([via.at[:2] for via in self.sequence.vias])
+        far = (1.0 + BESIDE_WALL) * self.requirements.required
+        steps = GRADIENT_STEP * max(self.requirements.required, LEAST_REQUIRED_M) * AXES
+        around = self.world.distance(places[:, None] + steps[None])
+        out = np.stack((around[:, 0] - around[:, 1], around[:, 2] - around[:, 3]), axis=1)
+        beside = (self.world.distance(places) < far) & np.isfinite(out).all(axis=1)
+        return {int(k): math.atan2(out[k, 0], -out[k, 1]) for k in np.flatnonzero(beside)}
+
     def is_clear(self, spans: Floats) -> bool:
         """Whether the body keeps clear on planar spans."""
         return is_clear(self.world, spans, self.requirements)
@@ -151,8 +172,19 @@ class TurningProblem(PathProblem):
             return False
         return self.is_clear(spans)
 
-    def is_round(self, spans: Floats) -> bool:
-        """Whether no turn is sharper than the circle round the body, about the reference point."""
+    def is_round(self, spline_path: SplinePath) -> bool:
+        """Whether no turn is sharper than the circle round the body, about the reference point.
+
+        Where the robot may turn on the spot there may be a corner.
+        """
+        spans, spots = spline_path.spans, sorted(self.spots)
+        parts = [part for part in np.split(spans, spline_path.joints[spots]) if len(part)]
+        if spots and self.sequence.closed and 0 not in self.spots:
+            parts.append(spans[[-1, 0]])  # its seam
+        return all(self._is_round(part) for part in parts)
+
+    def _is_round(self, spans: Floats) -> bool:
+        """Whether no turn on spans without corners is sharper than the circle round the body."""
         radius = self.requirements.outer_radius
         if not radius > 0.0:
             return self._curvature_bound(spans) * radius <= 1.0
@@ -208,8 +240,7 @@ class TurningProblem(PathProblem):
     def wide_turns(self, rho: float) -> WideTurns:
         """The turns of a good driver, of at least a radius [m]."""
         pace = self.requirements.objective.pace
-        own = OVERSHOOT * self.requirements.outer_radius
-        return WideTurns(pace, rho, self.sharpest, self.roomy, own)
+        return WideTurns(pace, rho, self.sharpest, self.roomy, self.own_radius)
 
     @property
     def roomy(self) -> float:
