@@ -113,3 +113,31 @@ def test_a_path_that_bends_is_led_aside_without_kinks(along: float, beside: floa
     joints = np.arange(1.0, len(found.path.spans))
     before, behind = found.path.curvature(joints - 1e-7), found.path.curvature(joints + 1e-7)
     assert np.abs(before - behind).max() < 0.7
+
+
+def test_a_round_goes_on_at_its_seam_as_it_did() -> None:
+    lap = plan(
+        Mission.model_validate(
+            {"robot": ROBOT, "route": {"start": [0, 0], "via": [[40, 0], [20, 30]], "closed": True}}
+        )
+    )
+    found = stepped_aside(lap, np.array([(4.0, -2.0, 2.0), (1.5, 7.0, 2.0)])).plan
+    assert found is not None
+    assert found.path.length > lap.path.length
+    first, last = found.path.spans[[0, -1]]
+    ahead, before = first[1] - first[0], last[3] - last[2]
+    turned = ahead[0] * before[1] - ahead[1] * before[0]
+    assert abs(turned) < 1e-9 * np.hypot(*ahead) * np.hypot(*before)
+    assert ahead @ before > 0.0
+
+
+def test_a_path_as_round_as_the_robot_is_laid_anew_where_stepping_aside_is_sharper() -> None:
+    """Two discs leave no wider bends between them."""
+    robot = {"radius_m": 2.5, "max_speed_mps": 2}
+    straight = plan(Mission.model_validate(
+        {"robot": robot, "route": {"start": [0, 0], "goal": [40, 0]}}
+    ))  # fmt: skip
+    for y in np.linspace(0.0, 2.0, 9):
+        rests = np.array([(18.0, y, 2.4), (22.0, -y, 2.4)])
+        found = stepped_aside(straight, rests).plan
+        assert found is None or found.drivability.sharpest_radius >= 0.999 * 2.5

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from viaspline.curve.bending import curvature_bound
 from viaspline.curve.path import Path, PathVia
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats, Ints
@@ -57,7 +58,8 @@ class SteppedAside:
     """What came of stepping aside.
 
     Attributes:
-        plan: Proven in its world; None where there is no room to step aside.
+        plan: Proven in its world; None where there is no room to step aside in bends that are as
+            round as the robot's own body, if its path has been so round.
         no_room_for: Index of the disc for which there is none, where that is known.
     """
 
@@ -79,7 +81,15 @@ def stepped_aside(plan: Plan, discs: Floats) -> SteppedAside:
     )  # fmt: skip
     if failed >= 0:
         return SteppedAside(None, int(failed))
-    return SteppedAside(plan_along(plan, spans, marks))
+    found = plan_along(plan, spans, marks)
+    sharper = found is not None and _is_round(plan) and not _is_round(found)
+    return SteppedAside(None if sharper else found)
+
+
+def _is_round(plan: Plan) -> bool:
+    """Whether no turn is sharper than the robot's own body."""
+    radius = plan.mission.robot.outer_radius
+    return radius <= 0.0 or curvature_bound(plan.path, 1.0 / radius)[0] <= 1.0 / radius
 
 
 def plan_along(plan: Plan, spans: Floats, marks: Ints) -> Plan | None:
@@ -121,13 +131,16 @@ def free_bend(limits: Limits) -> float:
 
 
 def marks_of(plan: Plan) -> Ints:
-    """The joints of a plan's path as the kernel takes them."""
+    """The joints of a plan's path as the kernel takes them; a round goes on where it ends."""
     path, route = plan.path, plan.mission.route
     marks = np.full(len(path.spans) + 1, FREE, np.int64)
     for via in path.vias:
         marks[round(via.u)] = KEPT if via.kind == "user" else ASIDE
-    marks[0] = KEPT if route.start.heading_deg is None else FIXED
-    marks[-1] = KEPT if route.goal is None or route.goal.heading_deg is None else FIXED
+    starts, ends = (
+        end is not None and end.heading_deg is not None for end in (route.start, route.goal)
+    )
+    marks[0] = FIXED if starts or route.closed else KEPT
+    marks[-1] = FIXED if ends or route.closed else KEPT
     return marks
 
 
