@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -185,6 +186,19 @@ def test_a_cusp_inside_of_a_span_is_a_turn_on_the_spot_that_nobody_asked_for() -
     assert turn.place.distance == pytest.approx(path.length / 2)
     assert law.stations[0].name == "turn"
     assert found.verdict == "rough"
+
+
+@pytest.mark.parametrize(("slowest", "told"), [(1e-7, 0.0), (0.01, 0.01)])
+def test_a_cusp_is_stood_at_where_its_place_is_known_no_better(slowest: float, told: float) -> None:
+    """Laps behind each other know their places no better than their length allows."""
+    path = Path([[(0, 0), (10, 10), (0, 10), (10, 0)]], vias=[])
+    half, brake = path.length / 2, (1.0 - slowest**2) / path.length
+    law = replace(
+        timed(path, RobotSpec()), stations=(), distances=np.array([0.0, half, path.length]),
+        speeds=np.array([1.0, slowest, 1.0]), accelerations=np.array([-brake, brake]),
+    )  # fmt: skip
+    (turn,) = drivability_of(path, law, RobotSpec(), World([])).turns_on_spot
+    assert turn.speed == pytest.approx(told, rel=0.1)
 
 
 @pytest.mark.parametrize(

@@ -223,7 +223,10 @@ class _Drive:
         return tuple(found)
 
     def _slowest(self, distance: float) -> float:
-        """The least speed about a corner [m/s]: a cusp lies on a very short arc."""
+        """The least speed about a corner [m/s]: a cusp lies on a very short arc.
+
+        What is at rest as near as places of the path are known is at rest.
+        """
         around = np.concatenate((
             distance + SAME_DISTANCE_M * np.array([-1.0, 0.0, 1.0]),
             *(ends for ends in np.asarray(self.path.distance(self.cusps)).reshape(-1, 2)
@@ -233,7 +236,9 @@ class _Drive:
         rests = points[self.trajectory.speeds == 0.0]
         if np.any((rests >= around.min()) & (rests <= around.max())):
             return 0.0
-        return float(self.trajectory.speed_at(around).min())
+        slowest = float(self.trajectory.speed_at(around).min())
+        accel = float(np.abs(self.trajectory.accelerations).max(initial=0.0))
+        return 0.0 if slowest**2 <= 2.0 * accel * place_slip(self.path.length) else slowest
 
     def _is_asked(self, distance: float) -> bool:
         where = self.robot.turns_on_spot

@@ -70,7 +70,7 @@ def plan_rows(plan: Plan) -> Rows:
                 f"beside {certificate.obstacle}",
             )
         )
-    rows.append(("largest curvature", curvature(path.max_curvature()[0])))
+    rows.append(("largest curvature", curvature(1.0 / plan.drivability.sharpest_radius)))
     rows += drivability_rows(plan.drivability)
     rows += moving_rows(plan)
     stations = [s for s in plan.trajectory.stations if s.dwell > 0]

@@ -58,7 +58,7 @@ def path_data(plan: Plan) -> dict[str, Any]:
             for via, distance in zip(path.vias, path.via_distances, strict=True)
         ],
         "length": path.length,
-        "curvature": finite(path.max_curvature()[0]),
+        "curvature": 1.0 / plan.drivability.sharpest_radius,
         "certificate": {
             "clearance": finite(proof.clearance),
             "required": proof.required,
