@@ -122,6 +122,29 @@ def crop(seed: int, folder: Path, side: int = 120) -> vs.Mission:
             return _on_map(random, part, 1.0, 0.7)
 
 
+def indoor_round(seed: int, file: Path) -> vs.Mission:
+    """Five places on a map, in any order; of vias half are stations, of rounds half closed."""
+    random = np.random.default_rng((16, seed))
+    (obstacle,) = vs.load_map(file)
+    world = vs.World([obstacle])
+    low, high = np.reshape(obstacle.grid.extent, (2, 2))
+    places: list[list[float]] = []
+    while len(places) < 5:
+        place = random.uniform(low + 0.65, high - 0.65).round(2)
+        if world.distance([place])[0] > 0.65:
+            places.append(place.tolist())
+    vias = [
+        {"at": at, "dwell_s": 4.0} if random.random() < 0.5 else {"at": at} for at in places[1:]
+    ]
+    ends = {"closed": True} if random.random() < 0.5 else {"goal": vias.pop()["at"]}
+    robot = {"radius_m": 0.35, "clearance_m": 0.15, "max_speed_mps": 1.5, "max_accel_mps2": 0.8}
+    return vs.Mission.model_validate({
+        "world": {"known": [obstacle]},
+        "robot": robot | {"max_lateral_accel_mps2": 0.6},
+        "route": {"start": places[0], "via": vias, **ends},
+    })  # fmt: skip
+
+
 def _on_map(
     random: np.random.Generator, blocked: np.ndarray, cell: float, required: float
 ) -> vs.Mission:

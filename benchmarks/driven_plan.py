@@ -45,6 +45,16 @@ class DrivenPlan:
         """Of its exact curve."""
         return Shape.of(self.plan.path.spans)
 
+    @property
+    def between_stations(self) -> list[Shape]:
+        """From each place at which it stops to the next; the seam of a round is in the last."""
+        path, route = self.plan.path, self.plan.mission.route
+        stations = [round(via.u) for via in path.vias if via.dwell > 0.0]
+        parts = [part for part in np.split(path.spans, stations) if len(part)]
+        if route.closed:
+            parts[-1] = np.concatenate((parts[-1], path.spans[:1]))
+        return [Shape.of(part) for part in parts]
+
     @cached_property
     def free_space(self) -> FreeSpace:
         """Of the known world."""

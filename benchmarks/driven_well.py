@@ -10,6 +10,9 @@
     street           what the street example loses to its corners
     straight         vector worlds at 5 m/s, 1 m/s²: time over that of the straight line; 40
     sharp            random missions of four via points: how many are sharp, or turn back; 1,000
+    rounds           rounds of five places, some of them stations, on the maps of a warehouse and
+                     a depot: how many are sharper than the body, or have a corner where they
+                     don't stop, and the time of all; 50 on each
     signs            random missions, vector worlds, crops, rooms: how many turn the other way more
                      than twice as often as the taut route and twice for each via point; 20 each
     lanes            share of lanes over a lake that the path stays within 1 m of, and of how many
@@ -36,7 +39,7 @@ from pathlib import Path
 import numpy as np
 import shapely
 from best_curve import UnsolvedError, fastest, gentlest
-from driven_missions import crop, four_vias, lake, rooms, vector_world
+from driven_missions import crop, four_vias, indoor_round, lake, rooms, vector_world
 from driven_plan import DrivenPlan
 from driving_time import DrivingLimits, straight_time
 from path_shape import turning_sides
@@ -155,6 +158,24 @@ def sharp(asked: argparse.Namespace) -> None:
     print(f"with a corner: {np.mean([shape.corners > 0 for shape in shapes]):.2%}")
     turned = np.mean([shape.near_turns() > 0 for shape in shapes])
     print(f"with a span that nearly turns back on itself: {turned:.2%}")
+
+
+def rounds(asked: argparse.Namespace) -> None:
+    for name in ("warehouse", "depot"):
+        shapes, times, refused = [], [], 0
+        for seed in seeds(asked, 50):
+            mission = indoor_round(seed, EXAMPLES / "maps" / f"{name}.yaml")
+            try:
+                found = DrivenPlan.of(mission)
+            except vs.PlanningError:
+                refused += 1
+                continue
+            shapes.append(found.between_stations)
+            times.append(found.plan.trajectory.duration)
+        radius = mission.robot.radius_m
+        print(f"{name}: planned {len(shapes)}, refused {refused}, driven {sum(times):.1f} s")
+        sharp = np.mean([any(part.is_sharper(radius) for part in parts) for parts in shapes])
+        print(f"sharper than {radius} m anywhere, or with a corner: {sharp:.2%}")
 
 
 def signs(asked: argparse.Namespace) -> None:
@@ -277,6 +298,7 @@ TABLES: dict[str, Callable[[argparse.Namespace], None]] = {
     "street": street,
     "straight": straight,
     "sharp": sharp,
+    "rounds": rounds,
     "signs": signs,
     "lanes": lanes,
     "times": times,
