@@ -11,8 +11,10 @@ from __future__ import annotations
 
 import math
 
-from viaspline.kernels.arrays import Bytes
-from viaspline.kernels.jit import inlined, kernel
+import numpy as np
+
+from viaspline.kernels.arrays import Bytes, Ints
+from viaspline.kernels.jit import inlined, inner, kernel
 
 
 @inlined
@@ -41,11 +43,47 @@ def _close(cells: Bytes, ax: float, ay: float, bx: float, by: float) -> None:
         last = row * width + column
 
 
+@inner
+def _open_up_to(cells: Bytes, rows: int, columns: int, row0: int, column0: int, parts: int) -> Ints:
+    """How many of the map's cells up to a row and a column aren't covered all over.
+
+    Returns:
+        Shape (rows + 1, columns + 1).
+    """
+    total = np.zeros((rows + 1, columns + 1), np.int64)
+    for row in range(rows):
+        in_row = 0
+        for column in range(columns):
+            is_open = False
+            for k in range(parts * parts):
+                x = column0 + parts * column + k % parts
+                y = row0 + parts * row + k // parts
+                if not _is_covered(cells, float(x), float(y)):
+                    is_open = True
+                    break
+            in_row += int(is_open)
+            total[row + 1, column + 1] = total[row, column + 1] + in_row
+    return total
+
+
+@inner
+def _next_blocked(blocked: Bytes) -> Ints:
+    """The first blocked column from each place of a row on; beyond all columns without one."""
+    rows, columns = blocked.shape
+    found = np.full((rows, columns + 1), columns)
+    for row in range(rows):
+        for column in range(columns - 1, -1, -1):
+            found[row, column] = found[row, column + 1] if blocked[row, column] == 0 else column
+    return found
+
+
 @kernel
 def close_gaps(
     blocked: Bytes, width: float, row0: int, column0: int, parts: int, cells: Bytes
 ) -> None:
     """Close the gaps of a map that are narrower than ``width``.
+
+    Cells round about which all is covered close none, and are most of a map's.
 
     Args:
         blocked: The map's cells, nonzero where blocked, (height, width).
@@ -58,20 +96,27 @@ def close_gaps(
     """
     rows, columns = blocked.shape
     most = math.ceil(width)
+    half = most // 2 + 2  # of the map's cells: no middle of a gap lies farther off
+    total = _open_up_to(cells, rows, columns, row0, column0, parts)
+    following = _next_blocked(blocked)
     for row in range(rows):
+        low = min(row + half, rows)
         for column in range(columns):
             if blocked[row, column] == 0:
+                continue
+            left, right = max(column - half, 0), min(column + half + 1, columns)
+            if total[low, right] - total[row, right] - total[low, left] + total[row, left] == 0:
                 continue
             for dy in range(most):
                 other = row + 1 + dy
                 if other >= rows:
                     break
-                for dx in range(-most, most + 1):
+                partner = following[other, max(column - most, 0)]
+                while partner <= min(column + most, columns - 1):
+                    dx = partner - column
                     aside = max(abs(dx) - 1, 0)  # free columns between the two
+                    partner = following[other, partner + 1]
                     if aside * aside + dy * dy >= width * width:
-                        continue
-                    partner = column + dx
-                    if not 0 <= partner < columns or blocked[other, partner] == 0:
                         continue
                     x = column + 0.5 if dx == 0 else float(column + (1 if dx > 0 else 0))
                     across = x + (aside if dx > 0 else -aside)
