@@ -62,11 +62,16 @@ def dispatch_copy(dispatch: PackedDispatch) -> PackedDispatch:
 
 @inlined
 def take_report(
-    dispatch: PackedDispatch, robot: int, place: float, holds: float, heard: float, now: float
-) -> bool:
+    orders: PackedOrders, dispatch: PackedDispatch, robot: int, place: float, holds: float,
+    heard: float, now: float,
+) -> bool:  # fmt: skip
     """Note where a robot is, and whether it keeps before a crossing that it was asked to.
 
+    A robot that has been asked to may take itself to be let as far as it says, or as far as it was
+    let since: those commands may still be on their way.
+
     Args:
+        orders: PackedOrders.
         dispatch: It is written to.
         robot: Which.
         place: Where it says it is [m]; infinite: it has left the world.
@@ -85,7 +90,9 @@ def take_report(
     is_held = dispatch.recall[robot] >= 0 or dispatch.halt[robot] < np.inf
     if not is_held or heard < dispatch.recalled_at[robot]:
         return False
-    dispatch.promised[robot] = holds
+    let = open_bars_of(orders, dispatch, robot)
+    let = min(let, dispatch.recall_place[robot], dispatch.halt[robot])
+    dispatch.promised[robot] = max(holds, let)
     return dispatch.recall[robot] >= 0
 
 
@@ -167,7 +174,7 @@ def dispatch_step(
     swapped = 0
     for i in range(robots.size):
         time, place, holds, heard = reports[i]
-        if take_report(dispatch, robots[i], place, holds, heard, time):
+        if take_report(orders, dispatch, robots[i], place, holds, heard, time):
             swapped += settle_recall(orders, dispatch, robots[i])
     count = orders.length.size
     for robot in range(count):

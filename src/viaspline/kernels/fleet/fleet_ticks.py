@@ -107,7 +107,7 @@ def _hear(
         place = drive.place[robot]
         if drive.arrived[robot] < np.inf and orders.vanishes[robot]:
             place = np.inf
-        if take_report(dispatch, robot, place, grants[robot], heard[robot], now):
+        if take_report(orders, dispatch, robot, place, grants[robot], heard[robot], now):
             swapped += settle_recall(orders, dispatch, robot)
     return swapped
 
