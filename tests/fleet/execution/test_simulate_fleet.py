@@ -17,6 +17,7 @@ from straight_drives import (
     timed_lines,
 )
 
+import viaspline as vs
 from viaspline.fleet.execution.delays import Delays
 from viaspline.fleet.execution.simulate_fleet import drive_fleet
 
@@ -177,3 +178,30 @@ def test_lost_messages_only_delay() -> None:
     ]
     assert min(delays) >= heard - 1e-9
     assert max(delays) > heard + 0.5
+
+
+def test_a_robot_that_has_no_law_is_among_those_that_are_proven_apart() -> None:
+    """r0 can't pass r1 in an aisle, and stands at its start (found by strange_fleet_runs.py)."""
+    ends = ((2.0, 28.0), (10.0, 20.0))
+    fleet = vs.Fleet.model_validate(
+        {
+            "separation_m": 0.3,
+            "world": {"bounds": [0, 0, 30, 1.6]},
+            "robots": {"cart": {"radius_m": 0.4, "clearance_m": 0.1}},
+            "fleet": [
+                {
+                    "name": f"r{k}", "robot": "cart",
+                    "route": {"start": [a, 0.8], "goal": [b, 0.8]},
+                }
+                for k, (a, b) in enumerate(ends)
+            ],
+        }
+    )  # fmt: skip
+    plan = vs.plan_fleet(fleet)
+    assert set(plan.plans) == {"r1"}
+    run = vs.simulate_fleet(fleet, plan=plan)
+    assert run.reached
+    assert set(run.arrivals) == {"r1"}
+    assert run.certificate.separation <= 10.0 - 2.0 - 2.0 * 0.4
+    assert run.certificate.separation == pytest.approx(plan.certificate.separation, abs=1e-3)
+    assert run.distance_at("r0", np.array([0.0, 5.0])).tolist() == [0.0, 0.0]

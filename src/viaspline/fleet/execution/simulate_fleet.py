@@ -12,11 +12,13 @@ from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
 from viaspline.fleet.execution.driven_law import driven_laws, stretches_of
 from viaspline.fleet.execution.fleet_orders import FleetOrders, orders_of
 from viaspline.fleet.execution.fleet_run import FleetEvent, FleetRun, swapped_event
+from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.plan_fleet import PERIODS, FleetProgress, plan_fleet
 from viaspline.fleet.still_world import check_still
 from viaspline.formats.asked_for import AskedFleet, asked_fleet
 from viaspline.handed_in import check_kind, seed_from, time_from
+from viaspline.kernels.arrays import Ints
 from viaspline.kernels.fleet.fleet_ticks import SWAPPED, WAITS, FleetTicks, fleet_ticks
 from viaspline.kernels.fleet.granted_drive import PackedTrouble
 
@@ -41,8 +43,9 @@ def simulate_fleet(
     """Drive a fleet, with robots that are slow, that halt, and that aren't always heard.
 
     Every robot drives as fast as its law, its trouble and the others let it; they are let into
-    crossings as ``FleetNavigator`` does it. Robots that are not served stay at home and are left
-    out. Patrols, which never end, drive the laps that their plans hold, and stop at their starts.
+    crossings as ``FleetNavigator`` does it. Robots that are not served stay at home; those of them
+    that have a path, though no law along it, are proven apart from the others as well. Patrols,
+    which never end, drive the laps that their plans hold, and stop at their starts.
 
     Args:
         fleet: What was asked for, or the file in which that stands.
@@ -158,7 +161,7 @@ def _longest(fleet: DrivenFleet, delays: Delays, trouble: PackedTrouble, begin: 
 
 
 def _run(fleet: DrivenFleet, ticks: FleetTicks) -> FleetRun:
-    """What was driven, without the robots that have no law."""
+    """What was driven; robots that have no law stood at their starts."""
     packed, is_timed = fleet.courses.packed, fleet.laws.packed.is_timed
     came = np.isfinite(ticks.arrived)
     ends = packed.first[1:] - 1
@@ -168,7 +171,7 @@ def _run(fleet: DrivenFleet, ticks: FleetTicks) -> FleetRun:
     leaves = np.where(fleet.rides.vanishes & came, ticks.arrived, np.inf)
     stretches = stretches_of(ticks, np.where(is_timed, fleet.rides.depart, 0.0))
     courses, laws = driven_laws(fleet.courses, stretches, ticks.place, leaves)
-    laws = replace(laws, packed=laws.packed._replace(is_timed=is_timed.copy()))
+    _stand_for_ever(courses.packed.first, laws, np.flatnonzero(~is_timed))
     arrivals = {fleet.names[r]: float(ticks.arrived[r]) for r in np.flatnonzero(came)}
     return FleetRun(
         arrivals=arrivals,
@@ -180,6 +183,20 @@ def _run(fleet: DrivenFleet, ticks: FleetTicks) -> FleetRun:
         required=fleet.separation,
         end_s=ticks.end,
     )
+
+
+def _stand_for_ever(first: Ints, laws: FleetLaws, robots: Ints) -> None:
+    """Robots stand where they are since ever: their laws are written to.
+
+    Args:
+        first: The first node of each robot, (n + 1,).
+        laws: Of all that was driven.
+        robots: Which of them never did, (k,).
+    """
+    for robot in robots.tolist():
+        nodes = slice(int(first[robot]), int(first[robot + 1]))
+        laws.packed.arrive[nodes] = -np.inf
+        laws.packed.leave[nodes] = np.inf
 
 
 def _events(names: tuple[str, ...], ticks: FleetTicks) -> tuple[FleetEvent, ...]:
