@@ -81,7 +81,7 @@ class HarshDrive(NavigatorDrive):
             if time < due or one.speed > 0.0:
                 continue
             self.deaths_due.remove((due, one))
-            if self.random.random() < 0.5 and one.number == 0 and not one.patrols:
+            if self.random.random() < 0.5 and len(one.paths) == 1 and not one.patrols:
                 self.nav = self.nav.dead(one.name, until_m=min(one.along, one.paths[0].length))
             else:
                 self.nav = self.nav.dead(one.name)
@@ -99,7 +99,7 @@ class HarshDrive(NavigatorDrive):
         if what in ("dead", "dead far"):
             one.is_dead = True
             stops = one.along + 0.5 * one.speed**2 / one.accel + 0.05
-            if what == "dead far" or one.patrols or one.number > 0:
+            if what == "dead far" or one.patrols or len(one.paths) > 1:
                 self.nav = self.nav.dead(one.name)
             else:
                 self.nav = self.nav.dead(one.name, until_m=min(stops, one.paths[0].length))
