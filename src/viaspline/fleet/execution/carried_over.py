@@ -187,15 +187,20 @@ def _keys(robots: Ints, span: Floats) -> Floats:
     return np.column_stack((pairs, np.round(ends / SAME_M / 10.0)))
 
 
-def let_in_too_early(orders: FleetOrders, promised: Floats, progress: Floats) -> dict[int, int]:
+def let_in_too_early(
+    orders: FleetOrders, promised: Floats, progress: Floats, fixed: Flags
+) -> dict[int, int]:
     """Crossings into which the robot that is to pass second has been let already, by which one.
 
     Args:
         orders: Who passes first where.
         promised: The farthest that each robot may take to be granted [m], (n,).
         progress: How far each has come at least [m], (n,).
+        fixed: Whether each never gets on any more: it may be where others were let in, (n,).
     """
     bars, robots = _passed_too_early(orders, promised, progress, orders.packed.first[:-1])
+    drives = ~fixed[orders.packed.other[bars]]
+    bars, robots = bars[drives], robots[drives]
     return dict(zip(orders.packed.crossing[bars].tolist(), robots.tolist(), strict=True))
 
 
@@ -224,8 +229,8 @@ def _passed_too_early(
 def check_let_in(orders: FleetOrders, dispatch: PackedDispatch, kept: Ints) -> None:
     """Refuse a leader of a crossing into which the other robot has been let already.
 
-    A dead robot may be said to stand a little beyond where it was let: among those that keep their
-    paths nothing is changed by that.
+    A dead robot may be said to stand beyond where it was let, and in the way of one that was let in
+    there: among those that keep their paths nothing is changed by that.
 
     Args:
         orders: Who passes first where.
@@ -238,7 +243,9 @@ def check_let_in(orders: FleetOrders, dispatch: PackedDispatch, kept: Ints) -> N
     """
     packed = orders.packed
     bars, robots = _passed_too_early(orders, dispatch.promised, dispatch.progress, dispatch.head)
-    is_old = dispatch.fixed[robots] & (kept[robots] >= 0) & (kept[packed.other[bars]] >= 0)
+    others = packed.other[bars]
+    is_old = dispatch.fixed[robots] | dispatch.fixed[others]
+    is_old &= (kept[robots] >= 0) & (kept[others] >= 0)
     bars, robots = bars[~is_old], robots[~is_old]
     if bars.size:
         b = int(bars[0])

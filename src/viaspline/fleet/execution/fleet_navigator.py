@@ -10,6 +10,11 @@ import numpy as np
 
 from viaspline.errors import GeometryError
 from viaspline.fleet.execution.believed_reports import believed
+from viaspline.fleet.execution.dead_in_the_way import (
+    died,
+    hold_before_closed,
+    let_past_dead,
+)
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
 from viaspline.fleet.execution.dwells import FleetStations, dwell
 from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
@@ -165,7 +170,9 @@ class FleetNavigator(FleetStanding):
         fleet, state = self._fleet, self._state.copied(time)
         packed, orders = state.packed, state.orders.packed
         robots, table, events = believed(fleet, state, given, self._margin)
+        state = let_past_dead(state)
         dwell(self._stations, state, self._short)
+        hold_before_closed(state)
         before = packed.leaders.copy()
         swaps = np.isfinite(self._state.time) and floor(time) > floor(self._state.time)
         grants, sequence = dispatch_step(
@@ -194,7 +201,9 @@ class FleetNavigator(FleetStanding):
 
         Whoever was to pass after it where it will never come to goes first. Those whose way it
         stands in are stopped before it: ``blocked`` names them, and who waits for them. They need
-        other paths: plan them anew, and give ``with_plan`` what comes of it.
+        other paths: ``replanned`` lays some, or plan them anew and use ``with_plan``. Where it may
+        stand beyond what it was granted, others may have been let in: ``events`` names them, and
+        they are asked to stop, which whoever can't any more, or doesn't hear of it, won't.
 
         Args:
             name: Of the robot.
@@ -213,9 +222,7 @@ class FleetNavigator(FleetStanding):
                 f"until_m is {until}; give a place on the path of {name}, which is "
                 f"{self._fleet.lengths[robot]:.2f} m long"
             )
-        words = f"{name} is dead and stands in the way"
-        event = FleetEvent("dead", self._state.time, name, words)
-        return self._with(self._state.with_dead(robot, until, event))
+        return self._with(died(self._state, robot, until))
 
     def with_plan(self, plan: FleetPlan) -> FleetNavigator:
         """The fleet with another plan: robots are added, taken out or have other paths.

@@ -154,27 +154,3 @@ class FleetProgressState:
         state.packed.fixed[robot] = True
         state.out[robot] = True
         return replace(state, events=self.events)
-
-    def with_dead(self, robot: int, until: float, event: FleetEvent) -> FleetProgressState:
-        """A robot stands for ever between its progress and a place [m].
-
-        Of crossings that it has not come to the other robot becomes the leader. That only takes
-        away from what robots wait for.
-        """
-        state = self.copied(self.time)
-        packed, orders = state.packed, state.orders.packed
-        packed.fixed[robot] = True
-        packed.promised[robot] = max(until, packed.progress[robot])
-        packed.recall[robot], packed.recall_place[robot] = -1, np.inf
-        state.out[robot] = True
-        own = slice(int(orders.first[robot]), int(orders.first[robot + 1]))
-        met: set[int] = set()
-        for c, place, other in zip(
-            orders.crossing[own].tolist(), orders.place[own].tolist(),
-            orders.other[own].tolist(), strict=True,
-        ):  # fmt: skip
-            is_out = place > 0.0 and place >= until  # who begins in a crossing is in it
-            if c not in met and packed.leaders[c] == robot and is_out:
-                packed.leaders[c] = other
-            met.add(c)
-        return replace(state, events=(*self.events, event))

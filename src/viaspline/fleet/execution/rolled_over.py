@@ -113,12 +113,12 @@ def _orders_later(
     short, promised = state.orders.packed.short, state.packed.promised - shift
     fixed = state.packed.fixed
     orders = orders_led(fleet, leaders, by_second, short, come, fixed)
-    let_in = let_in_too_early(orders, promised, come)
+    let_in = let_in_too_early(orders, promised, come, fixed)
     if let_in:  # beyond where the crossing begins in this lap
         for c, robot in let_in.items():
             leaders[c], by_second[c] = robot, True
         orders = orders_led(fleet, leaders, by_second, short, come, fixed)
-        if let_in_too_early(orders, promised, come):
+        if let_in_too_early(orders, promised, come, fixed):
             return None  # both are in it by the wider cells of this lap: later, then
     return orders
 
