@@ -15,9 +15,14 @@ from viaspline.kernels.fleet.passing_order import passing_gaps
 
 @pytest.fixture(scope="module")
 def timed() -> TimedFleet:
+    return lanes_across(8)
+
+
+def lanes_across(count: int) -> TimedFleet:
     """Lanes across lanes, each with its rests outside of all others."""
-    lanes = [[[0, 6 * k + 10], [70, 6 * k + 10]] for k in range(8)]
-    lanes += [[[6 * k + 10, 0], [6 * k + 10, 70]] for k in range(8)]
+    far = 6 * count + 22
+    lanes = [[[0, 6 * k + 10], [far, 6 * k + 10]] for k in range(count)]
+    lanes += [[[6 * k + 10, 0], [6 * k + 10, far]] for k in range(count)]
     data = [
         {"name": f"r{k}", "priority": k % 2, "route": {"start": start, "goal": goal}}
         for k, (start, goal) in enumerate(lanes)
@@ -61,3 +66,12 @@ def test_progress_goes_up_to_all_of_it(timed: TimedFleet) -> None:
     timed.improved(0.6, shares.append)
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
+
+
+def test_many_are_timed_anew_with_what_lies_ahead_and_stay_proven() -> None:
+    many = lanes_across(26)
+    better, other = many.improved(1.0), many.improved(1.0)
+    assert better.rank < many.rank
+    ways, laws = better.ways, better.timing.laws
+    assert certify_fleet(ways.courses, laws, 1.0).holds
+    assert laws.packed.arrive.tobytes() == other.timing.laws.packed.arrive.tobytes()

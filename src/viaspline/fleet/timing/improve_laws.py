@@ -5,17 +5,27 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.timing.law_search import LawSearch
 from viaspline.fleet.timing.rides import FleetRides
-from viaspline.fleet.timing.time_paths import Timing
+from viaspline.fleet.timing.time_paths import MANY, Timing, copied_laws
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.passages import passages_of
 
 WORK_PER_S = 3_000_000
 """How many nodes and passages a search looks at in a second of the reference machine."""
+TIMED_ANEW_SHARE = 0.8
+"""So much of that may go to timing all robots anew, of many,"""
+FIRST_COME_WORK = 0.1
+"""what a node or a passage counts there: others are looked at one by one,"""
+FORESEEN = 0.2
+"""what a second counts that is foreseen to be waited later on,"""
+CHANCE_S = 0.3
+"""and up to how much an order may hold up more and be taken all the same [s]."""
 ROUND_S = 0.25
 """After so much work it says how far it is."""
 
@@ -49,13 +59,13 @@ def improve_laws(
         lateness of all, weighed by priority, is no more.
     """
     given = timing.laws.packed
-    laws = PackedLaws(
-        given.arrive.copy(), given.leave.copy(), given.speed.copy(), given.is_timed.copy()
-    )
+    laws = copied_laws(given)
     passages = passages_of(courses.packed, crossings.packed)
     fixed = sorted({*timing.blocked, *settled})
     search = LawSearch.of(courses, crossings, passages, rides, priorities, fixed)
-    spent, work, rounds = 0, int(seconds * WORK_PER_S), 0
+    work, rounds, spent = int(seconds * WORK_PER_S), 0, 0
+    if np.count_nonzero(search.movable) >= MANY:
+        laws, spent = _timed_anew(search, laws, int(TIMED_ANEW_SHARE * work))
     while spent < work:
         look = search.look if rounds % 2 else search.turn  # each finds what the other one doesn't
         spent += look(laws, min(work - spent, int(ROUND_S * WORK_PER_S)))
@@ -63,3 +73,30 @@ def improve_laws(
         if progress is not None:
             progress(min(spent / work, 1.0))
     return replace(timing, laws=FleetLaws(laws))
+
+
+def _timed_anew(search: LawSearch, laws: PackedLaws, work: int) -> tuple[PackedLaws, int]:
+    """All robots timed anew, each time with other orders, as often as there is work for it.
+
+    Args:
+        search: What they drive among.
+        laws: That they have.
+        work: How many nodes and passages may be looked at.
+
+    Returns:
+        The soonest laws, those that there were among them, and how many were looked at.
+    """
+    ends, spent, chance = search.courses.packed.first[1:] - 1, 0, 0.0
+    best, each = laws, 0
+    while spent + each <= work:
+        tried = copied_laws(laws)
+        tried.is_timed[search.movable] = False
+        each = int(FIRST_COME_WORK * search.first_come(tried, FORESEEN, chance))
+        spent, chance = spent + each, CHANCE_S
+        sooner = (best.arrive[ends] - tried.arrive[ends])[search.movable]
+        if (
+            tried.is_timed[search.movable].all()
+            and float(search.weight[search.movable] @ sooner) > 0.0
+        ):
+            best = tried
+    return best, spent

@@ -15,6 +15,7 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.first_come_laws import first_come_laws
+from viaspline.kernels.fleet.foreseen_waits import SeenAhead
 from viaspline.kernels.fleet.improved_laws import improved_laws
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
@@ -84,18 +85,21 @@ class LawSearch:
         state = np.array([SEED], np.int64)
         return cls(courses, crossings, passages, rides, weight, movable, state)
 
-    def first_come(self, laws: PackedLaws) -> int:
+    def first_come(self, laws: PackedLaws, foreseen: float = 0.0, chance: float = 0.0) -> int:
         """Give all that may be changed their laws at once: who comes first passes first.
 
         Args:
             laws: Of those that may not; written to.
+            foreseen: What a second counts that is foreseen to be waited later on.
+            chance: By how much an order may hold up more and be taken all the same, at random [s].
 
         Returns:
             How many nodes and passages were looked at.
         """
+        sight = SeenAhead(foreseen, chance, np.zeros(len(self.weight)), self.state)
         return first_come_laws(
             self.courses.packed, self.crossings.packed, self.passages, self.rides.packed, laws,
-            self.weight, self.movable,
+            self.weight, self.movable, sight,
         )  # fmt: skip
 
     def look(self, laws: PackedLaws, work: int) -> int:

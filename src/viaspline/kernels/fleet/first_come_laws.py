@@ -12,6 +12,13 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.fleet.foreseen_waits import (
+    SeenAhead,
+    chance_of,
+    foresee_all,
+    foresee_touched,
+    more_foreseen,
+)
 from viaspline.kernels.fleet.laws_in_turn import (
     gained,
     next_meeting,
@@ -73,7 +80,9 @@ def _undo(scene: RideScene, state: OrderState) -> None:
 
 
 @inner
-def _settle_best(scene: RideScene, state: OrderState, weight: Floats, passage: int) -> bool:
+def _settle_best(
+    scene: RideScene, state: OrderState, weight: Floats, passage: int, sight: SeenAhead
+) -> bool:
     """Settle who passes first where two robots meet. Whether that could be."""
     behind, late = sooner_leader(scene, state, weight, passage)
     if late == np.inf:
@@ -81,12 +90,14 @@ def _settle_best(scene: RideScene, state: OrderState, weight: Floats, passage: i
     ahead = state.mate[behind]
     leader, second = scene.passages.other[behind], state.owner[behind]
     cost = _cost(scene, state, weight, behind, MOST_RIDES)
-    if cost <= ASIDE_SHARE * late + ASIDE_S:
+    if sight.share <= 0.0 and cost <= ASIDE_SHARE * late + ASIDE_S:
         return True
+    cost += more_foreseen(scene, state, sight)
     _undo(scene, state)
     if state.movable[leader] and (cost == np.inf or weight[leader] == weight[second]):
         other_cost = _cost(scene, state, weight, ahead, MOST_RIDES)
-        if other_cost < cost:
+        other_cost += more_foreseen(scene, state, sight)
+        if other_cost < cost + chance_of(sight):
             return True
         _undo(scene, state)
     most = MOST_RIDES if cost < np.inf else MOST_RIDES_AT_LAST
@@ -146,7 +157,7 @@ def _leave_out(scene: RideScene, state: OrderState, robot: int) -> None:
 @kernel
 def first_come_laws(
     courses: PackedCourses, crossings: PackedCrossings, passages: PackedPassages,
-    rides: PackedRides, laws: PackedLaws, weight: Floats, movable: Flags,
+    rides: PackedRides, laws: PackedLaws, weight: Floats, movable: Flags, sight: SeenAhead,
 ) -> int:  # fmt: skip
     """Give robots their laws all at once, by settling who passes first where they meet.
 
@@ -159,6 +170,7 @@ def first_come_laws(
             for each other in a circle whatever the order have none.
         weight: What a second of a robot's lateness counts, (n,).
         movable: The robots that are to get laws, (n,).
+        sight: How much counts what lies ahead, and what is left to chance; written to.
 
     Returns:
         How many nodes and passages were looked at.
@@ -173,6 +185,7 @@ def first_come_laws(
     for robot in range(movable.size):
         if movable[robot]:
             soonest[robot] = next_meeting(scene, state, robot)[0]
+    foresee_all(scene, state, movable, sight)
     while True:
         robot = int(np.argmin(soonest))
         if soonest[robot] == np.inf:
@@ -181,7 +194,7 @@ def first_come_laws(
         if passage < 0 or soonest[robot] > soonest.min():
             continue
         other = passages.other[passage]
-        if not _settle_best(scene, state, weight, passage):
+        if not _settle_best(scene, state, weight, passage, sight):
             out = robot
             if movable[other] and weight[other] < weight[robot]:
                 out = other
@@ -194,5 +207,6 @@ def first_come_laws(
         for one in (robot, other):
             if state.movable[one]:
                 soonest[one] = next_meeting(scene, state, one)[0]
+        foresee_touched(scene, state, sight)
         keep(state)
     return state.counts[WORK]

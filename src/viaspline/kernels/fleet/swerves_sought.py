@@ -160,7 +160,7 @@ def _best_swerve(
 def swerves_sought(
     samples: PackedSamples, grid: LinkedGrid, rests: RestGrid, swervers: Swervers, order: Ints,
     work: int,
-) -> Floats:  # fmt: skip
+) -> tuple[Floats, int]:  # fmt: skip
     """Swerves of a fleet by which less is waited, by what is reckoned from samples.
 
     Args:
@@ -173,7 +173,8 @@ def swerves_sought(
 
     Returns:
         The robot of each swerve, x, y, how wide it is, its half, and what it saves: see ``SAVED``,
-        (k, 6). Those of one robot follow each other, and are to be made in that order.
+        (k, 6). Those of one robot follow each other, and are to be made in that order. And how many
+        pairs may still be looked at; none: not all robots were.
     """
     robots = samples.reach.size
     known, scratch = new_meetings(robots, MOST_MEETINGS), new_meetings(robots, MOST_MEETINGS)
@@ -212,4 +213,4 @@ def swerves_sought(
                 take_place(grid, first + i)
                 samples.place[first + i, 0], samples.place[first + i, 1] = x, y
                 put_place(grid, first + i, x, y)
-    return found[:count].copy()
+    return found[:count].copy(), max(work, 0)
