@@ -87,6 +87,7 @@ def test_who_was_asked_to_let_a_robot_pass_that_dies_then_goes_on() -> None:
 @given(seed=st.integers(0, 100_000))
 @example(seed=5)  # 0.17 m between centres in place of 2: nobody was kept out
 @example(seed=44)
+@example(seed=2591)  # a warning: the other path turns sharply where nothing stands anywhere
 def test_nobody_comes_near_a_robot_that_died_beyond_its_grant(seed: int) -> None:
     found = overrun(np.random.default_rng(seed))
     assert found is None or faults(found) == []

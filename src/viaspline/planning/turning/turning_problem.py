@@ -144,7 +144,8 @@ class TurningProblem(PathProblem):
         far = (1.0 + BESIDE_WALL) * self.requirements.required
         steps = GRADIENT_STEP * max(self.requirements.required, LEAST_REQUIRED_M) * AXES
         around = self.world.distance(places[:, None] + steps[None])
-        out = np.stack((around[:, 0] - around[:, 1], around[:, 2] - around[:, 3]), axis=1)
+        with np.errstate(invalid="ignore"):  # where nothing stands anywhere all are infinite
+            out = np.stack((around[:, 0] - around[:, 1], around[:, 2] - around[:, 3]), axis=1)
         beside = (self.world.distance(places) < far) & np.isfinite(out).all(axis=1)
         return {int(k): math.atan2(out[k, 0], -out[k, 1]) for k in np.flatnonzero(beside)}
 
