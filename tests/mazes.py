@@ -75,3 +75,29 @@ def thin_walls(random: np.random.Generator, width: float) -> list[dict[str, Any]
             size = float(random.uniform(0.05, 0.8))
             obstacles.append({"circle": {"center": at.tolist(), "radius": size}})
     return obstacles
+
+
+def nested_traps(random: np.random.Generator) -> tuple[list[dict[str, Any]], float, float]:
+    """Traps of three walls, each inside of the next and open to any side, about the origin.
+
+    Walls are millimetres to centimetres thick, with both corners of their ends, and lanes between
+    them from hardly wider to much wider than the robot.
+
+    Returns:
+        (obstacles, what the robot needs [m], half the width of all of it [m]).
+    """
+    required, half = float(random.uniform(0.1, 0.6)), float(random.choice((5e-4, 0.01, 0.05)))
+    spare = float(10.0 ** random.uniform(-3.0, -0.3))
+    lane = 2.0 * (required + half) + spare
+    obstacles, reach = [], 1.5 * required + 2.0 * half
+    for _ in range(int(random.integers(1, 6))):
+        corners = reach * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+        sides = np.delete(np.stack((corners, np.roll(corners, -1, axis=0)), axis=1),
+                          random.integers(4), axis=0)  # fmt: skip
+        for a, b in sides:
+            along = (b - a) / np.linalg.norm(b - a)
+            across = half * np.array((-along[1], along[0]))
+            ring = (a - across, b - across, b + across, a + across)
+            obstacles.append({"polygon": np.array(ring).tolist()})
+        reach += lane
+    return obstacles, required, reach + 3.0 * required

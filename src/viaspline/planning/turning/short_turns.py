@@ -16,9 +16,10 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import turn_path_s
 from viaspline.planning.turning.bend_row import KEPT, RADIUS, SIDE, Bends, X, Y
 from viaspline.planning.turning.repair import LEAST_RAMP, clear_turn_path
-from viaspline.planning.turning.turn_path import RAMP, TurnPath
+from viaspline.planning.turning.turn_path import RAMP, NoTurnPath, TurnPath, turn_path_on_sides
 from viaspline.world.world import World
 
 RAMPS_SHARE: Final = 8e-5
@@ -28,8 +29,18 @@ RAMP_MOVES_OUT: Final = 24.0
 """A ramp of length l into an arc of radius R moves that out by l² / R over this."""
 
 
+SHORTER: Final = 0.25
+"""By how much ramps get shorter where there is no room for them."""
+
+LEAST_ROOMY_RAMP: Final = 1e-3
+"""The shortest of them, in radii: the two corners of a wall may be a millimetre apart."""
+
+
 def short_turn_path(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
     """The shortest clear turn path, with ramps that cost no more than a part of its length.
+
+    Where there is no room for them, or only for turns that were pushed out for it, they are
+    shorter: between what is hardly wider apart than the robot lines from turn to turn are short.
 
     Args:
         bends: The row.
@@ -40,7 +51,19 @@ def short_turn_path(bends: Bends, world: World, requirements: Requirements) -> T
         The path; with the shortest ramps there are where even they cost more. None where none is
         clear.
     """
-    return clear_turn_path(bends, world, requirements, short_ramp(bends))
+    ramp = short_ramp(bends)
+    best = clear_turn_path(bends, world, requirements, ramp)
+    requirements.spend(turn_path_s(len(bends.rows)))
+    tightest = turn_path_on_sides(bends, LEAST_ROOMY_RAMP)
+    if isinstance(tightest, NoTurnPath):
+        return best
+    enough = (1.0 + RAMPS_SHARE) * tightest.length
+    while (best is None or best.length > enough) and ramp > LEAST_ROOMY_RAMP:
+        ramp = max(SHORTER * ramp, LEAST_ROOMY_RAMP)
+        found = clear_turn_path(bends, world, requirements, ramp)
+        if found is not None and (best is None or found.length < best.length):
+            best = found
+    return best
 
 
 def short_ramp(bends: Bends) -> float:
