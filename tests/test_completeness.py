@@ -20,7 +20,7 @@ from scipy.ndimage import label
 
 sys.path.insert(0, str(Path(__file__).parent))
 import viaspline as vs
-from mazes import concave_rings, random_cells, rooms_with_doors, thin_walls
+from mazes import concave_rings, nested_traps, random_cells, rooms_with_doors, thin_walls
 from ways_by_areas import Place, core_of, least_room, roomy_places, squares_of, truth
 
 SPARE_M = 2e-3  # of the room at start and goal, beyond what is required
@@ -235,6 +235,47 @@ def test_round_the_tips_of_teeth_a_thinner_robot_has_no_longer_way(
     assert math.isfinite(lengths[-1])
     for thin, fat in pairwise(lengths):
         assert thin <= fat * (1.0 + LONGER)
+
+
+@settings(max_examples=10)
+@given(seeds)
+@example(2)  # the thinner one's turns had no room for their ramps, and were laid wider for it
+@example(10)
+@example(46)
+def test_out_of_traps_a_thinner_robot_has_no_longer_way(seed: int) -> None:
+    """Round the end of a wall it turns twice within its thickness, and may have little room."""
+    known, required, half = nested_traps(np.random.default_rng(seed))
+    bounds, ends = (-half, -half, half, half), [(0.0, 0.0), (half - 1.5 * required,) * 2]
+    check_no_longer(known, bounds, required, ends, (0.1, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0))
+
+
+@settings(max_examples=10)
+@given(seeds, st.floats(0.6, 2.4))
+@example(11, 0.698)  # coarse cells led a thinner one another way round
+@example(18, 1.738)
+@example(132, 1.342)
+def test_past_lone_cells_a_thinner_robot_has_no_longer_way(seed: int, required: float) -> None:
+    """Of many ways that hardly differ it isn't to take a longer one."""
+    aside, random = 60, np.random.default_rng(seed)
+    one_grown = 1.0 + 4.0 * required + math.pi * required**2
+    cells = random_cells(seed, aside, float(random.uniform(0.3, 0.7)) / one_grown)
+    bounds = (0.0, 0.0, float(aside), float(aside))
+    ends = roomy_places(random, squares_of(cells), bounds, required + SPARE_M)
+    assume(len(ends) == 2)
+    known = [vs.Obstacle(grid=vs.Grid(cells, 1.0))]
+    check_no_longer(known, bounds, required, ends, (0.35, 0.5, 0.65, 0.8, 0.9, 1.0))
+
+
+def check_no_longer(
+    known: list[Any], bounds: tuple[float, ...], required: float, ends: list[Place],
+    shares: tuple[float, ...],
+) -> None:  # fmt: skip
+    """No robot of parts of a size has a longer path than a fatter one, by ``LONGER``."""
+    found = [planned(known, bounds, share * required, ends, "length") for share in shares]
+    lengths = [math.inf if plan is None else plan.path.length for plan in found]
+    for k, length in enumerate(lengths):
+        shortest = min(lengths[k:])
+        assert length <= shortest * (1.0 + LONGER) or math.isinf(shortest)
 
 
 @settings(max_examples=6)

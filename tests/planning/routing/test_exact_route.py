@@ -16,6 +16,7 @@ from viaspline.planning.routing.exact_route import ExactRoute
 from viaspline.planning.routing.lattice_route import LatticeRoute
 from viaspline.planning.routing.route_problem import NO_BARRIERS, RouteProblem, on_the_line
 from viaspline.planning.routing.router import MAX_EXACT_AGAIN, Router
+from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
 REQUIRED = 0.5
@@ -94,6 +95,23 @@ def test_what_gains_too_little_is_left(row: World) -> None:
     length = ExactRoute().lay(asked).cost
     assert isinstance(ExactRoute(least_gain=0.01).lay(asked, 1.009 * length), GaveUp)
     assert isinstance(ExactRoute(least_gain=0.01).lay(asked, 1.011 * length), Found)
+
+
+def test_an_end_within_what_corners_stand_out_proves_no_route_the_shortest() -> None:
+    """It has no tangent to them there, and the route leads away from it first."""
+    world = World([disc(0.0, 0.0, 2.0)])
+    far, near = (problem(world, (x, 0.0), (-9.0, 1.0)) for x in (2.6, 2.51))
+    found = [ExactRoute().lay(asked) for asked in (far, near)]
+    assert all(isinstance(one, Found) for one in found)
+    assert [one.is_settled for one in found if isinstance(one, Found)] == [True, False]
+
+
+def test_bends_that_are_longer_than_their_corners_are_wound() -> None:
+    corners = np.zeros((4, 8))
+    corners[:, :2] = (0, 0), (1, 0.1), (2, 0.1), (3, 0)  # 3.00998 m
+    bends = np.zeros((2, 6))
+    assert not TautPath(corners, bends, 3.009).is_wound
+    assert TautPath(corners, bends, 3.03).is_wound
 
 
 @settings(max_examples=25)

@@ -9,7 +9,7 @@ import pytest
 import viaspline as vs
 from viaspline.maps.grid import Grid
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.planning.routing.lattices import MAX_ON_MAP_LINES
+from viaspline.planning.routing.lattices import MAX_ON_MAP_LINES, fine_lattice
 from viaspline.planning.routing.route_problem import NO_BARRIERS
 from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.taut_path import TautPath
@@ -63,6 +63,29 @@ def test_wide_bounds_about_a_small_map_take_no_more_cells_than_fit_in_memory(sid
     found = router.find(*ends, NO_BARRIERS, np.zeros(1, np.bool_)).value
     assert found is not None
     assert found.length == pytest.approx(np.hypot(*(ends[1] - ends[0])), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("required", "side"), [(0.05, None), (0.1, 0.05), (0.4, 0.1), (0.8, 0.2), (9.0, 1.0)]
+)
+def test_fine_cells_on_a_map_are_open_and_on_its_lines_or_none(
+    required: float, side: float | None
+) -> None:
+    room = World([Obstacle(grid=Grid(np.zeros((200, 200), bool), 1.0, (0.0, 0.0, 0.0)))])
+    found = fine_lattice(room, required, required, np.array([(50.0, 50.0), (150.0, 150.0)]))
+    assert (None if found is None else found.side) == side
+    assert found is None or found.kept < required
+
+
+@pytest.mark.parametrize(("required", "side"), [(2.0, 0.5), (0.01, 0.1)])
+def test_fine_cells_without_a_map_are_as_fine_as_so_many_allow(
+    required: float, side: float
+) -> None:
+    room = World([Obstacle(circle={"center": (50, 50), "radius": 3})], bounds=(0, 0, 100, 100))
+    found = fine_lattice(room, required, required, np.array([(9.0, 9.0), (90.0, 90.0)]), 1_000_000)
+    assert found is not None
+    assert found.side == pytest.approx(side)
+    assert (found.kept < required) == (required == 2.0)
 
 
 def test_a_way_to_where_one_is_has_no_length() -> None:

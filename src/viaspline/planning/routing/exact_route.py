@@ -44,9 +44,9 @@ class ExactRoute:
         if not self.more_than < problem.active_count <= self.max_met:
             return self._gave_up(problem)
         start, goal = (np.ascontiguousarray(end[:2]) for end in (problem.start, problem.goal))
-        space = problem.space
+        space, margin = problem.space, _margin(problem, self.level)
         corners = shortest_route(
-            space.world.packed, start, goal, space.required + TURN_MARGINS_M[self.level],
+            space.world.packed, start, goal, space.required + margin,
             space.floor, TURN_STEPS_RAD[self.level], problem.barriers, problem.active, self.max_met,
         )  # fmt: skip
         if not len(corners):
@@ -54,7 +54,8 @@ class ExactRoute:
         taut_path = TautPath.through(corners)
         if not taut_path.length <= (1.0 - self.least_gain) * bound:
             return GaveUp((f"a route of {taut_path.length:.3f} m, which is not shorter",))
-        is_settled = len(taut_path.bends) > 0 and _is_surely_shortest(problem, self.level)
+        is_taut = len(taut_path.bends) > 0 and not taut_path.is_wound
+        is_settled = is_taut and _is_surely_shortest(problem, self.level)
         return Found(taut_path, taut_path.length, is_settled)
 
     def _gave_up(self, problem: RouteProblem) -> GaveUp:
@@ -63,15 +64,31 @@ class ExactRoute:
         return GaveUp((f"the tangents of {met} obstacles{limit}",))
 
 
+def _margin(problem: RouteProblem, level: int) -> float:
+    """How far off what is required corners stand [m]."""
+    return min(TURN_MARGINS_M[level], problem.space.margins[0])
+
+
 def _is_surely_shortest(problem: RouteProblem, level: int) -> bool:
-    """Whether circumscribed corners close no gap that the arcs themselves leave open."""
+    """Whether circumscribed corners close no gap that the arcs themselves leave open.
+
+    Nor stand beyond an end, which then has no tangent to them.
+    """
     space, active = problem.space, problem.active
     if not active.any():
         return True
     if space.world.enclosures:
         return False
     met = (space.world.obstacles[i].ring for i in np.flatnonzero(active))
-    radius = max((ring.radius for ring in met if ring is not None), default=0.0)
-    excess = (radius + space.required) * (1.0 / np.cos(0.25 * TURN_STEPS_RAD[level]) - 1.0)
-    low, high = 2.0 * space.floor, 2.0 * (space.required + TURN_MARGINS_M[level] + excess)
-    return not has_narrow_gap(space.world.packed, active, low, high)
+    turned = 0.5 * TURN_STEPS_RAD[level]  # at a corner, to either side; half of that on a disc
+    excess = max(
+        (ring.radius + space.required)
+        * (1.0 / math.cos(turned * (0.5 if ring.is_disc else 1.0)) - 1.0)
+        for ring in met
+        if ring is not None
+    )
+    reach = space.required + _margin(problem, level) + excess
+    ends = np.array([problem.start[:2], problem.goal[:2]])
+    if float(space.world.distance(ends).min()) < reach:
+        return False
+    return not has_narrow_gap(space.world.packed, active, 2.0 * space.floor, 2.0 * reach)

@@ -20,7 +20,6 @@ from viaspline.planning.routing.lattice import Lattice
 from viaspline.planning.routing.pulled_guides import PulledGuide
 from viaspline.planning.routing.route_problem import (
     NO_BARRIERS,
-    TURN_MARGINS_M,
     TURN_STEPS_RAD,
     RouteProblem,
     SearchSpace,
@@ -58,13 +57,17 @@ class LatticeRoute:
     Attributes:
         max_gaps: Gaps of a lattice that may prove too narrow before a finer one is tried.
         lattices: Those of a space that are tried, the coarsest first.
+        more_than: Obstacles met up to which it is left to the others, where there is no map.
     """
 
     max_gaps: int = 200
     lattices: Callable[[SearchSpace], Iterable[Lattice]] = SearchSpace.ever_finer
+    more_than: int = -1
 
     def lay(self, problem: RouteProblem, bound: float = math.inf) -> Outcome[TautPath]:
         """See ``Method``."""
+        if not problem.space.has_maps and problem.active_count <= self.more_than:
+            return GaveUp(("no lattice",))
         closed, count, lattice, is_shut = problem.barriers, 0, None, False
         if not problem.space.has_lattice:
             problem.spend(LATTICE_S)
@@ -151,7 +154,7 @@ def _pulled(space: SearchSpace, lattice: Lattice, guide: Floats) -> PulledGuide:
     """A guide pulled taut, else the gaps on its way that are too narrow."""
     packed = space.world.packed
     bends, corners, stuck = pulled_taut(
-        packed, guide, lattice.kept, space.required + np.array(TURN_MARGINS_M),
+        packed, guide, lattice.kept, space.required + np.array(space.margins),
         space.floor, lattice.side, np.array(TURN_STEPS_RAD),
     )  # fmt: skip
     if len(bends):

@@ -31,7 +31,8 @@ Box = tuple[float, float, float, float]
 HALF_DIAGONAL = math.sqrt(0.5)  # of a cell of side 1
 OPEN_CELL_RADII, PROOF_CELL_RADII = 0.5, 0.25  # side of open cells, in required distances
 CELLS_WANTED, CELLS_QUICK = 2**16, 2**20  # of the lattice that is tried first without maps
-CELLS_SHORTEST = 2**22  # the most of it where it is the length that counts
+CELLS_SHORTEST = 2**22  # the most of it where it is the length that counts,
+CELLS_FINE = 2**24  # and of the one that is tried beside it there
 MAX_CELLS = 2**25  # of any lattice
 # Of a lattice on a map's lines, and if that is more, in cells of the maps: beyond, what lies about
 # a small map has more of its cells than fit in memory, and the lattice lies across them.
@@ -63,18 +64,48 @@ def lattices(
             return
         yield _maps_alone(own, world, required)
     for side in _sides(world, required, box, most_cells):
-        if side <= OPEN_CELL_RADII * required * (1.0 + 1e-9):
-            yield _open_cells(world, required, floor, box, side)
-        else:
-            yield _closed_cells(world, required, box, side)
+        yield _cells(world, required, floor, box, side)
+
+
+def fine_lattice(
+    world: World, required: float, floor: float, places: Floats, most_cells: int = CELLS_FINE
+) -> Lattice | None:
+    """The finest lattice of use with no more than so many cells; None if there is none.
+
+    The coarser cells are, the more may the shortest path through them be another way round than the
+    shortest way. Of a map they have to be open: closed cells of one shut what is a cell wide.
+
+    Args:
+        world: What to keep clear of.
+        required: [m].
+        floor: A little less, which is what is proven [m].
+        places: Where the robot has to get to [m], (n, 2).
+        most_cells: How many.
+    """
+    box, resolution = _box(world, required, places), _resolution(world)
+    area = _area(box)
+    if math.isinf(resolution):
+        side = max(PROOF_CELL_RADII * required, math.sqrt(area / most_cells))
+        return _cells(world, required, floor, box, side)
+    for radii in (PROOF_CELL_RADII, OPEN_CELL_RADII):
+        side = _on_map_lines(radii * required, resolution)
+        if area <= most_cells * side**2:
+            return _cells(world, required, floor, box, side)
+    return None
+
+
+def _cells(world: World, required: float, floor: float, box: Box, side: float) -> Lattice:
+    """Open cells where they are small beside the robot, else closed ones."""
+    if side <= OPEN_CELL_RADII * required * (1.0 + 1e-9):
+        return _open_cells(world, required, floor, box, side)
+    return _closed_cells(world, required, box, side)
 
 
 def _sides(world: World, required: float, box: Box, most_cells: int) -> Iterator[float]:
     """Sides of cells [m], ever smaller; the last ones prove that there is no way."""
-    area = (box[2] - box[0]) * (box[3] - box[1])
+    area, resolution = _area(box), _resolution(world)
     counts = CELLS_WANTED, most_cells, MAX_CELLS
     first, quickest, finest = (math.sqrt(area / n) for n in counts)
-    resolution = min((grid.resolution for grid in _grids(world)), default=math.inf)
     open_side, last_side = OPEN_CELL_RADII * required, PROOF_CELL_RADII * required
     wanted = [max(open_side, finest), max(last_side, finest)]
     if math.isinf(resolution):
@@ -83,12 +114,27 @@ def _sides(world: World, required: float, box: Box, most_cells: int) -> Iterator
     least = math.sqrt(area / most)
     before = math.inf
     for side in wanted:
-        if math.isfinite(resolution):  # a whole number of cells in one of the map's
-            on_map = resolution / max(1.0, math.ceil(resolution / side - 1e-9))
-            side = on_map if on_map >= least else side
+        on_map = _on_map_lines(side, resolution)
+        side = on_map if on_map >= least else side
         if side < before:
             yield side
             before = side
+
+
+def _on_map_lines(side: float, resolution: float) -> float:
+    """A side [m] no longer than this of which a whole number make one of a map's cells."""
+    if math.isinf(resolution):
+        return side
+    return resolution / max(1.0, math.ceil(resolution / side - 1e-9))
+
+
+def _resolution(world: World) -> float:
+    """The side of the maps' smallest cells [m]; inf without maps."""
+    return min((grid.resolution for grid in _grids(world)), default=math.inf)
+
+
+def _area(box: Box) -> float:
+    return (box[2] - box[0]) * (box[3] - box[1])
 
 
 def _cells_of_maps(world: World, resolution: float) -> float:

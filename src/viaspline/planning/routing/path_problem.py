@@ -16,7 +16,6 @@ from viaspline.kernels.world.clusters import group_labels
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.routing.asked_sides import AskedSides, sided
-from viaspline.planning.routing.lattices import CELLS_QUICK, CELLS_SHORTEST
 from viaspline.planning.routing.router import Router
 from viaspline.world.world import World
 
@@ -44,8 +43,9 @@ class PathProblem:
     def of(cls, sequence: ViaSequence, world: World, requirements: Requirements) -> PathProblem:
         """The problem of a via sequence."""
         places = np.array([via.at[:2] for via in sequence.vias])
-        cells = CELLS_QUICK if requirements.objective.is_time else CELLS_SHORTEST
-        router = Router(world, requirements.required, places, most_cells=cells)
+        router = Router(world, requirements.required, places)
+        if not requirements.objective.is_time:
+            router = router.for_shortest
         return cls(sequence, world, requirements, router)
 
     def binding_too(self, overlooked: Sequence[tuple[int, ...]]) -> PathProblem:

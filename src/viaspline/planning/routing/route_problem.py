@@ -17,7 +17,7 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.kernels.world.segment import mark_near_segment
 from viaspline.planning.routing.lattice import Lattice
-from viaspline.planning.routing.lattices import CELLS_QUICK, lattices
+from viaspline.planning.routing.lattices import CELLS_QUICK, fine_lattice, lattices
 from viaspline.planning.routing.pulled_guides import PulledGuides
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
@@ -26,9 +26,17 @@ from viaspline.world.world import World
 # than the robot. Below nothing at last: a via point may stand at just what is required, and a route
 # turns only round what it is outside of.
 TURN_MARGINS_M = (1e-3, 1e-4, -0.25 * PROOF_SLACK_M)
+# Where it is the length that counts: a millimetre at each of many turns would be a thousandth of
+# it, and a fatter robot in a narrow gap has no room for it.
+SHORTEST_MARGINS_M = (1e-5, *TURN_MARGINS_M)
 TURN_STEPS_RAD = (np.pi / 6, np.pi / 32, np.pi / 200)  # largest turn at one corner
 NO_BARRIERS = np.empty((0, 4))
-MADE_AGAIN = ("_lattices", "pulled", "among_made")  # of a search space, where that is needed
+MADE_AGAIN = (
+    "_lattices",
+    "fine_lattices",
+    "pulled",
+    "among_made",
+)  # of a search space, where that is needed
 MAX_DISC_PAIRS = 200_000  # near enough to each other that their gaps are looked at all at once
 
 
@@ -45,12 +53,14 @@ class SearchSpace:
         required: Distance to keep [m].
         places: Where routes may begin and end [m], (n, 2).
         most_cells: Of the lattice that is tried first for a slim robot.
+        margins: How far off an obstacle a route turns, the best first [m].
     """
 
     world: World
     required: float
     places: Floats
     most_cells: int = field(default=CELLS_QUICK, kw_only=True)
+    margins: tuple[float, ...] = field(default=TURN_MARGINS_M, kw_only=True)
 
     @property
     def floor(self) -> float:
@@ -111,6 +121,12 @@ class SearchSpace:
     def _lattices(self) -> tuple[list[Lattice], Iterator[Lattice]]:
         """Those that are made, and those that are not yet."""
         return [], lattices(self.world, self.required, self.floor, self.places, self.most_cells)
+
+    @cached_property
+    def fine_lattices(self) -> tuple[Lattice, ...]:
+        """The finest one of use, where there is one."""
+        made = fine_lattice(self.world, self.required, self.floor, self.places)
+        return () if made is None else (made,)
 
     @cached_property
     def pulled(self) -> PulledGuides:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from operator import attrgetter
 
 import numpy as np
 
@@ -13,7 +14,13 @@ from viaspline.planning.problem.method import Method, Outcome, first_settled
 from viaspline.planning.routing.exact_route import ExactRoute
 from viaspline.planning.routing.fine_route import FineRoute
 from viaspline.planning.routing.lattice_route import LatticeRoute
-from viaspline.planning.routing.route_problem import RouteProblem, SearchSpace, for_nothing
+from viaspline.planning.routing.lattices import CELLS_SHORTEST
+from viaspline.planning.routing.route_problem import (
+    SHORTEST_MARGINS_M,
+    RouteProblem,
+    SearchSpace,
+    for_nothing,
+)
 from viaspline.planning.routing.taut_path import TautPath
 
 RouteMethod = Method[RouteProblem, TautPath]
@@ -34,6 +41,12 @@ AMONG_MADE: tuple[RouteMethod, ...] = (
     LatticeRoute(lattices=SearchSpace.made_lattices),
     *ROUTE_METHODS[2:],
 )
+SHORTEST_METHODS: tuple[RouteMethod, ...] = (
+    ROUTE_METHODS[0],
+    LatticeRoute(lattices=attrgetter("fine_lattices"), more_than=MAX_EXACT_OBSTACLES),
+    *ROUTE_METHODS[1:],
+)
+"""Where it is the length that counts: of ways that hardly differ, fine cells tell the shortest."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +81,13 @@ class Router(SearchSpace):
         """
         problem = RouteProblem(self, start, goal, barriers, active, spend)
         return first_settled(self.methods, problem)
+
+    @property
+    def for_shortest(self) -> Router:
+        """This one where it is the length of a path that counts."""
+        return replace(
+            self, methods=SHORTEST_METHODS, most_cells=CELLS_SHORTEST, margins=SHORTEST_MARGINS_M
+        )
 
     @cached_property
     def among_made(self) -> Router:

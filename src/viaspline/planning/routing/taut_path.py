@@ -16,6 +16,7 @@ from viaspline.kernels.routing.tangent_graph import barrier_crossings
 from viaspline.kernels.world.corner_fans import X, Y
 
 SAME_M = 1e-6  # paths whose lengths or places differ by less are one
+WOUND = 1e-9  # part of its length by which a path that isn't taut is longer
 PLACES = 16  # along a path, at which another is looked for
 
 
@@ -39,6 +40,15 @@ class TautPath:
     def is_direct(self) -> bool:
         """Whether nothing stands between the two places."""
         return len(self.corners) == 2
+
+    @property
+    def is_wound(self) -> bool:
+        """Whether its bends are longer than the corners that they are to be pulled taut from.
+
+        Two arcs may be touched in another order than their corners: the bends go round one then.
+        """
+        steps = np.diff(self.corners[:, X : Y + 1], axis=0)
+        return self.length > (1.0 + WOUND) * float(np.hypot(*steps.T).sum())
 
     @property
     def turns(self) -> Floats:
