@@ -88,6 +88,12 @@ def test_fine_cells_without_a_map_are_as_fine_as_so_many_allow(
     assert (found.kept < required) == (required == 2.0)
 
 
+def test_a_place_is_free_where_its_cell_is_and_not_off_the_lattice() -> None:
+    made = Router(World([wall()], bounds=(-2, -2, 6, 3)), 0.2, np.array([(-1.0, -1.0)])).lattice
+    places = ((-1.0, -1.0), (2.0, 0.5), (-9.0, 0.0), (99.0, 0.0))
+    assert [made.is_free(np.array(at)) for at in places] == [True, False, False, False]
+
+
 def test_a_way_to_where_one_is_has_no_length() -> None:
     found = taut_path(World([wall()]), (2, -2), (2, -2))
     assert found is not None

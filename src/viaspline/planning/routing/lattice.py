@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -69,6 +70,13 @@ class Lattice:
         found = np.zeros(len(places), values.dtype)
         found[inside] = values[row[inside], column[inside]]
         return found
+
+    def is_free(self, place: Floats) -> bool:
+        """Whether the cell that a place lies in is free; not off the lattice."""
+        x, y = place[:2].tolist()
+        column, row = math.floor((x - self.x) / self.side), math.floor((y - self.y) / self.side)
+        height, width = self.cells.shape
+        return 0 <= row < height and 0 <= column < width and not self.cells[row, column]
 
     def free_middles_near(self, place: Floats) -> Floats:
         """Middles of the free cells about a place, the nearest first [m], (n, 2)."""

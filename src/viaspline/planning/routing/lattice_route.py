@@ -185,6 +185,8 @@ def _guide(space: SearchSpace, lattice: Lattice, start: Floats, goal: Floats) ->
 
 def _entry(space: SearchSpace, lattice: Lattice, place: Floats) -> Floats | None:
     """The place itself if its cell is free, else the next free one in a straight line."""
+    if lattice.is_free(place):
+        return np.asarray(place[:2])
     middles = lattice.free_middles_near(place)
     if not len(middles):
         return None

@@ -10,7 +10,7 @@ Tested through ``planning/methods/test_other_sides``.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -61,8 +61,15 @@ class LikelyPrice(DrivenPrice):
 
     def _laid_time(self, leg: int) -> float:
         """How long a leg takes as it is laid [s]."""
-        stands = self.problem.legs[leg].stands
-        return leg_time(self.laid.leg(leg), self.problem.requirements.objective.pace, stands)
+        if leg not in self._laid_times:
+            pace, stands = self.problem.requirements.objective.pace, self.problem.legs[leg].stands
+            self._laid_times[leg] = leg_time(self.laid.leg(leg), pace, stands)
+        return self._laid_times[leg]
+
+    @cached_property
+    def _laid_times(self) -> dict[int, float]:
+        """Those of them that are known [s]: each row is held against them."""
+        return {}
 
     def _with_least_turns(self, leg: int, taut_path: TautPath) -> float | None:
         """How long a way takes with the least turns [s]; None where they have no room."""

@@ -94,7 +94,7 @@ class WideTurns:
         Bends are joined first where that is gentler, as far as there is room for it.
         """
         requirements.spend(TURN_WISHES_S)
-        narrowest = settled_turns(bends.turning(self.least))
+        narrowest = self._least_turns(bends, requirements)
         if isinstance(narrowest, NoTurnPath):
             return None
         wishes = self._wishes(narrowest)
@@ -114,7 +114,7 @@ class WideTurns:
     def _joined(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | Ints:
         """The widest turns round a row of bends some of which are joined; see ``_fitted``."""
         requirements.spend(TURN_WISHES_S)
-        narrowest = settled_turns(bends.turning(self.least))
+        narrowest = self._least_turns(bends, requirements)
         if isinstance(narrowest, NoTurnPath):
             return np.arange(len(bends.rows))
         radii = self._wished(bends, narrowest, self._wishes(narrowest))
@@ -147,12 +147,19 @@ class WideTurns:
     def ideal(self, bends: Bends, requirements: Requirements) -> TurnPath | None:
         """The turn path with the widest turns, clear or not; None where they overlap."""
         requirements.spend(TURN_WISHES_S + turn_path_s(len(bends.rows)))
-        narrowest = settled_turns(bends.turning(self.least))
+        narrowest = self._least_turns(bends, requirements)
         if isinstance(narrowest, NoTurnPath):
             return None
         radii = self._wished(bends, narrowest, self._wishes(narrowest))
         found = turn_path_on_sides(bends.turning(radii))
         return found if isinstance(found, TurnPath) else None
+
+    def _least_turns(self, bends: Bends, requirements: Requirements) -> SettledTurns | NoTurnPath:
+        """Where the least turns lie; a row is told the time of and then laid, mostly."""
+        least = bends.turning(self.least)
+        if requirements.parts is None:
+            return settled_turns(least)
+        return requirements.parts.once(("least", least.key), partial(settled_turns, least))
 
     def _wishes(self, narrowest: SettledTurns) -> TurnWishes:
         """What turns should be like that bend as little as they can for a part of the length.
