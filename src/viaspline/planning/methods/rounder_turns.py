@@ -30,12 +30,14 @@ class RounderTurns:
     rounder: Method[TurnProblem, SplinePath]
 
     def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Outcome[SplinePath]:
-        """See ``Method``. The round path is taken if it costs little more.
+        """See ``Method``. The round path is taken if it takes little longer.
 
-        Only where there is none does the robot turn on the spot. Lanes are left as they are.
+        Only where there is none does the robot turn on the spot. Lanes are left as they are, and
+        where it is the length that counts so is all.
         """
         outcome = self.method.lay(problem, bound)
-        if not isinstance(outcome, Found) or problem.kept_lanes.are_any:
+        by_time = problem.requirements.objective.is_time
+        if not isinstance(outcome, Found) or not by_time or problem.kept_lanes.are_any:
             return outcome
         if problem.is_round(outcome.value) or problem.own_radius <= problem.sharpest:
             return outcome
