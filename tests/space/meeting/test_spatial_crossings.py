@@ -13,8 +13,12 @@ from viaspline.curve.path import Path
 from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import FleetCourses, FleetPath, courses_along
 from viaspline.fleet.crossings import crossings_of
+from viaspline.space.among.courses_among import courses_among
+from viaspline.space.among.moving_solid import MovingSolid
 from viaspline.space.meeting.gap_of_bodies import BodyPair, gap_slopes, gaps_of
 from viaspline.space.meeting.spatial_crossings import spatial_crossings
+from viaspline.trajectory.limits import Limits
+from viaspline.trajectory.retime import retime
 
 Floats = NDArray[np.float64]
 
@@ -89,6 +93,24 @@ def test_too_many_boxes_are_given_up_with_the_robots_named() -> None:
     courses = courses_along(["a", "b"], lines)
     with pytest.raises(GaveUpError, match="the paths of 'a' and 'b' come near each other in too"):
         spatial_crossings(courses.in_space(), None, 3)
+
+
+def test_what_stays_is_one_piece_however_long_it_does() -> None:
+    """What moves goes along its course by the clock: pieces of so long a stay were too many."""
+    body, path = (
+        (0.5, 0.2, 0.5),
+        Path(CardinalSpline(np.array([[0.0, 0, 5], [20, 0, 5]])).spans, []),
+    )
+    law = retime(path, Limits(max_speed=2.0, max_accel=1.0))
+    comes, stays, lasts = [10.0, -20.0, 5.0], [10.0, 0.0, 5.0], 1e8
+    parked = MovingSolid(
+        "parked", body, np.array([0.0, 10.0, lasts]), np.array([comes, stays, stays]),
+        np.ones(3, np.bool_), np.zeros(3),
+    )  # fmt: skip
+    found = spatial_crossings(courses_among(path, law, body, [parked]), None, 1000)
+    (span,) = found.span
+    assert span[:2] == pytest.approx([8, 12], abs=0.3)
+    assert span[2:] == pytest.approx([9, lasts], abs=0.2)
 
 
 @given(seed=st.integers(0, 10_000))

@@ -96,11 +96,15 @@ def spatial_crossings(
 
 
 def _pieces_of(courses: SpatialCourses, robot: int) -> _Pieces:
-    """The pieces of one robot's course on which it is there."""
+    """The pieces of one robot's course on which it is there.
+
+    Where it stays, as what moves does by its clock, all of a cell is one: no part of it is nearer.
+    """
     packed = courses.packed
     begin, end = int(packed.first[robot]), int(packed.first[robot + 1])
     length = np.diff(packed.distance[begin:end])
-    counts = np.maximum(np.ceil(length / PIECE_M), 1.0).astype(np.int64)
+    stays = (packed.place[begin + 1 : end] == packed.place[begin : end - 1]).all(axis=1)
+    counts = np.where(stays, 1.0, np.maximum(np.ceil(length / PIECE_M), 1.0)).astype(np.int64)
     cell = np.repeat(np.arange(begin, end - 1), counts)
     number = np.arange(len(cell)) - np.repeat(np.cumsum(counts) - counts, counts)
     share = np.repeat(1.0 / counts, counts)
@@ -164,8 +168,9 @@ def _pairs_within(
     if tree.count_neighbors(there, 1.0, p=np.inf) > MAX_PAIRS:
         raise _too_many(courses, who)
     found = tree.sparse_distance_matrix(there, 1.0, p=np.inf, output_type="ndarray")
-    order = np.lexsort((found["j"], found["i"]))
-    return found["i"][order].astype(np.int64), found["j"][order].astype(np.int64)
+    keys = np.sort(found["i"] * len(others) + found["j"])
+    i, j = np.divmod(keys, len(others))
+    return i, j
 
 
 def _boxes(mine: _Pieces, its: _Pieces, i: Ints, j: Ints) -> tuple[Ints, Floats, Floats]:
@@ -184,7 +189,8 @@ def _boxes(mine: _Pieces, its: _Pieces, i: Ints, j: Ints) -> tuple[Ints, Floats,
     if not len(i):
         return np.empty(0, np.int64), none, none
     count = len(its.cell)
-    cell, piece = np.divmod(np.unique(mine.cell[i] * count + j), count)
+    keys = np.sort(mine.cell[i] * count + j)  # np.unique hashes them, which takes far longer
+    cell, piece = np.divmod(keys[np.append(True, keys[1:] != keys[:-1])], count)
     apart = its.low[piece[1:]] - its.high[piece[:-1]]
     begins = np.append(True, (np.diff(cell) > 0) | (apart > ONE_GAP))
     ends = np.append(begins[1:], True)
