@@ -14,7 +14,7 @@ from scipy import ndimage
 
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.routing.bottleneck import body_bottleneck
+from viaspline.planning.routing.bottleneck import body_bottleneck, gaps_for_body
 from viaspline.world.world import World
 
 SIDE_M = 12.0
@@ -45,8 +45,9 @@ class Scene:
 
     @property
     def is_refused(self) -> bool:
+        gaps = gaps_for_body(self.world, self.requirements)
         ends = np.array(self.start), np.array(self.goal)
-        return body_bottleneck(self.world, *ends, self.requirements) is not None
+        return body_bottleneck(gaps, *ends, self.requirements) is not None
 
     def gets_there(self) -> bool:
         """Whether a chain of poses leads there whose neighbours a grown body holds as well."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from viaspline.planning.problem.method import GaveUp, Outcome, Refusal
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.work_budget import GAPS_OBSTACLE_S, GAPS_S
-from viaspline.planning.routing.bottleneck import Bottleneck, body_bottleneck
-from viaspline.planning.routing.gap_graph import is_soon_made
+from viaspline.planning.routing.bottleneck import Bottleneck, body_bottleneck, gaps_for_body
+from viaspline.planning.routing.gap_graph import GapGraph, is_soon_made
 from viaspline.planning.routing.leg_refusals import explain_narrow_leg
 from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
 
@@ -44,8 +44,12 @@ def _bottleneck(path: DrivenProblem, leg: int) -> Bottleneck | None:
     world, requirements = path.world, path.requirements
     start, goal = (via.at[:2] for via in path.sequence.ends(leg))
 
-    def told() -> Bottleneck | None:
+    def measured() -> GapGraph:
         requirements.spend(GAPS_S + GAPS_OBSTACLE_S * len(world))
-        return body_bottleneck(world, start, goal, requirements)
+        return gaps_for_body(world, requirements)
+
+    def told() -> Bottleneck | None:
+        graph = requirements.recalled(("gaps", world), measured)
+        return body_bottleneck(graph, start, goal, requirements)
 
     return requirements.recalled(("gaps for body", world, *start.tolist(), *goal.tolist()), told)

@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-import shapely
 
 from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.kernels.arrays import Bytes, Floats, Ints
@@ -24,6 +23,7 @@ from viaspline.planning.routing.gap_links import GapLinks
 from viaspline.world.world import World
 
 SHUT_M = 2.0 * LEAST_KEPT_M  # nothing passes a gap that is no wider
+LEAST_SIZE_M2 = 1e-300  # of a line squared: one that is less is a place
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,18 @@ def bottleneck_between(
     return _narrowest(GapGraph.of(world, reach), start, goal)
 
 
+def gaps_for_body(world: World, requirements: Requirements) -> GapGraph:
+    """The gaps of a world that are narrower than a convex body: those of all legs alike.
+
+    Args:
+        world: What is in the way.
+        requirements: The body and what it keeps.
+    """
+    return GapGraph.of(world, requirements.narrowest_gap - 2.0 * PROOF_SLACK_M)
+
+
 def body_bottleneck(
-    world: World, start: Floats, goal: Floats, requirements: Requirements
+    graph: GapGraph, start: Floats, goal: Floats, requirements: Requirements
 ) -> Bottleneck | None:
     """The bottleneck of the ways of a convex body from start to goal, however it turns.
 
@@ -73,7 +83,7 @@ def body_bottleneck(
     which it doesn't stand at either end; or that is too narrow for its inner disc.
 
     Args:
-        world: What is in the way.
+        graph: See ``gaps_for_body``.
         start: [m], at least (2,), with room for that disc.
         goal: The same.
         requirements: The body and what it keeps.
@@ -81,15 +91,20 @@ def body_bottleneck(
     Returns:
         None where that closes no way.
     """
-    graph = GapGraph.of(world, requirements.narrowest_gap - 2.0 * PROOF_SLACK_M)
-    links = graph.links
-    gaps = np.asarray(shapely.linestrings(links.feet.reshape(-1, 2, 2)))
-    ends = np.array([start[:2], goal[:2]])
-    away = shapely.distance(gaps[:, None], shapely.points(ends)).min(axis=1)
-    is_closed = (links.widths < 2.0 * (requirements.required - PROOF_SLACK_M)) | (
-        away > requirements.around
-    )
+    links, far = graph.links, requirements.around
+    is_away = (_gaps_to(links, start) > far) & (_gaps_to(links, goal) > far)
+    is_closed = (links.widths < 2.0 * (requirements.required - PROOF_SLACK_M)) | is_away
     return _narrowest(replace(graph, links=links.some(is_closed)), start, goal)
+
+
+def _gaps_to(links: GapLinks, place: Floats) -> Floats:
+    """How far the lines across gaps are from a place, at least (2,): [m], (k,)."""
+    from_place = links.feet[:, :2] - place[:2]
+    across = links.feet[:, 2:] - links.feet[:, :2]
+    size = np.maximum((across * across).sum(axis=1), LEAST_SIZE_M2)
+    part = np.clip(-(from_place * across).sum(axis=1) / size, 0.0, 1.0)
+    x, y = (from_place + part[:, None] * across).T
+    return np.asarray(np.hypot(x, y))
 
 
 def _narrowest(graph: GapGraph, start: Floats, goal: Floats) -> Bottleneck | None:
