@@ -215,6 +215,19 @@ def test_a_car_gets_out_of_a_bay_with_short_moves_and_across_a_field_with_long_o
     is_sound(chain, world, CAR, start, goal)
 
 
+def test_what_a_window_shows_a_mere_edge_of_is_driven_in_a_greater_one():
+    """Two aisles are joined beyond the first window, at whose edge the disc can't turn."""
+    rho, edge = 1.0, 0.05
+    top = 3.0 * rho - edge  # the window ends farther by what the disc keeps
+    world = World([box(-3.0, -30.0, 3.0, top)], bounds=(-30.0, -30.0, 30.0, 30.0))
+    start, goal = Pose(-5.0, 0.0, -0.5 * math.pi), Goal(5.0, 0.0, (-0.5 * math.pi,))
+    chain = find_poses(world, DISC, rho, 0.2 * rho, start, goal, SEARCH_EFFORTS[:1])
+    assert isinstance(chain, Chain), chain
+    curve = PiecewiseCubic(chain.spans)
+    assert curve.evaluate(len(chain.spans)) == pytest.approx((goal.x, goal.y), abs=1e-9)
+    assert certify(curve, world, DISC.clearance, radius=DISC.radius).holds
+
+
 def reachable(world, radius, start, goal, step=0.5, side=0.25, sectors=96):
     """Whether a point goes with sudden turns from near a pose to near a place: all states."""
     turns = np.array([-1.0, -0.5, 0.0, 0.5, 1.0]) * step / RHO

@@ -75,6 +75,9 @@ def through(
 ) -> tuple[tuple[Chain, ...] | NotFound, bool]:
     """The chains in one window, or why there are none and whether a greater one may have some.
 
+    It may as well where there is no room for more states: what a window shows the mere edge of is
+    sought in vain in it, and found at once in a greater one.
+
     Args:
         legs: As they follow each other; those of one number come to be one chain.
         starts: Where the first may begin: poses at one place.
@@ -117,7 +120,7 @@ def through(
             reason = Reason.START_SHUT_IN if number == 0 else Reason.NO_WAY
             if tree.state != EMPTY or is_cut or not has_followed_all:
                 reason = Reason.BUDGET
-            return NotFound(reason, number, expanded), tree.state == EMPTY and is_cut
+            return NotFound(reason, number, expanded), is_cut
         distinct = _distinct(arrivals)
         layers.append(distinct[:MAX_ARRIVALS])
         has_seen_all = tree.state == EMPTY and not is_cut
