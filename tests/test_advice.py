@@ -15,8 +15,8 @@ from rich.console import Console
 from scipy.integrate import quad
 
 import viaspline as vs
-from viaspline.advice import TRIED_TENSIONS
 from viaspline.cli import cli
+from viaspline.compared_tensions import TRIED_TENSIONS
 from viaspline.report.advice_tables import advice_tables
 from viaspline.report.advice_words import advice_words
 from viaspline.report.tension_picture import tension_picture
@@ -214,6 +214,17 @@ def test_auto_plans_with_what_is_suggested(closed: bool) -> None:
     assert plan.mission.spline.tension == advice.suggested
     assert plan.trajectory.duration == advice.chosen.cost[0]
     assert len(advice.spans) == 5
+
+
+def test_past_what_moves_it_is_no_later_than_with_a_tension_by_hand() -> None:
+    cart = {
+        "circle": {"center": [0, 0], "radius": 2},
+        "motion": {"from": [44, 0], "velocity_mps": [0, 1.6]},
+    }
+    asked = mission(known=[cart])
+    soonest = vs.plan(asked).trajectory.duration
+    by_hand = [vs.plan(with_spline(asked, tension=t)).trajectory.duration for t in BY_HAND]
+    assert soonest <= min(by_hand) * (1.0 + 1e-6)
 
 
 def test_auto_states_a_tension() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from viaspline.advice import advise_tension
+from viaspline.compared_tensions import advised_plan
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind
 from viaspline.mission.model import Mission
@@ -59,5 +59,5 @@ def plan_in(mission: Mission, world: World, spending: WorkBudget | None = None) 
         NoPathError, GaveUpError, GeometryError: As ``plan``.
     """
     if mission.spline.tension == "auto":
-        return advise_tension(mission, world=world).plan
+        return advised_plan(mission, world)
     return whole_plan(mission, world, spending)

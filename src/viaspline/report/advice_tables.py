@@ -10,7 +10,8 @@ from rich import box
 from rich.console import Group, RenderableType
 from rich.table import Table
 
-from viaspline.advice import TensionAdvice, TensionTrial
+from viaspline.advice import TensionAdvice
+from viaspline.compared_tensions import TensionTrial
 from viaspline.report.advice_words import advice_words, tension_words
 from viaspline.report.units import curvature, down, metres, seconds
 from viaspline.span_tensions import SpanTensions

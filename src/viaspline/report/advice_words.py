@@ -5,7 +5,8 @@ Tested through ``test_advice``.
 
 from __future__ import annotations
 
-from viaspline.advice import Tension, TensionAdvice
+from viaspline.advice import TensionAdvice
+from viaspline.compared_tensions import Tension
 from viaspline.report.units import seconds
 
 STRAIGHT_1PM = 1e-9

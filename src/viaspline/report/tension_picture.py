@@ -11,7 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from viaspline.advice import TensionAdvice, TensionTrial
+from viaspline.advice import TensionAdvice
+from viaspline.compared_tensions import TensionTrial
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.report import style
 from viaspline.report.advice_words import advice_words, tension_words
