@@ -75,6 +75,15 @@ def test_a_search_that_ran_out_of_room_proves_nothing() -> None:
     assert "poses" in told.tried[0]
 
 
+def test_a_cheaper_path_than_one_that_is_there_is_looked_for_less_long() -> None:
+    disc = {"circle": {"center": [0, 0], "radius": 9}}
+    far = problem([disc], {"at": [-25, 0], "heading_deg": 180}, [25, 0])
+    hasty = HybridAStar(max_gain_s=0.001)
+    assert isinstance(hasty.lay(far), Found)
+    assert isinstance(hasty.lay(far, bound=100.0), GaveUp)
+    assert isinstance(HybridAStar().lay(far, bound=100.0), Found)
+
+
 def test_a_body_without_a_turning_circle_is_refused_for_its_place_alone() -> None:
     """It may turn more sharply than the search does."""
     footprint = [[-0.4, -0.3], [0.9, -0.3], [0.9, 0.3], [-0.4, 0.3]]
