@@ -38,8 +38,9 @@ A polygonal body turns with its lines: where these are short, a corner that is m
 about, and in a gap that is as wide as it has to be only lines that end on the path itself hold.
 """
 
-_SHORTEST_M: Final = 1e-3
-"""Lines shorter than this aren't cut any more."""
+_SHORTEST_M: Final = 2e-4
+"""Lines shorter than this aren't cut any more: a body of half a metre turns with them by the slack
+and no more, where it bends like itself."""
 
 
 @dataclass(frozen=True, eq=False)
