@@ -3,8 +3,6 @@
 A path crosses the shortest segment between two blocked cells only where half of its length is
 room enough: all of its places are nearer than that to one of its ends. Where all segments that
 are too short are closed, what still can be reached is just what the robot can reach.
-
-Tested through ``planning/routing/test_lattice_route``.
 """
 
 from __future__ import annotations
