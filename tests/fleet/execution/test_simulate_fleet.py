@@ -205,3 +205,5 @@ def test_a_robot_that_has_no_law_is_among_those_that_are_proven_apart() -> None:
     assert run.certificate.separation <= 10.0 - 2.0 - 2.0 * 0.4
     assert run.certificate.separation == pytest.approx(plan.certificate.separation, abs=1e-3)
     assert run.distance_at("r0", np.array([0.0, 5.0])).tolist() == [0.0, 0.0]
+    with pytest.raises(vs.GeometryError, match="times: expected numbers"):
+        run.distance_at("r0", "soon")  # type: ignore[arg-type]

@@ -17,7 +17,7 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.execution.fleet_orders import index_of
 from viaspline.fleet.fleet_certificate import FleetCertificate, certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.handed_in import time_from
+from viaspline.handed_in import numbers_from, time_from
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.moving_value import MovingValue
@@ -162,10 +162,10 @@ class FleetRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
         """How far a robot had come at some times [m], exactly, (t,).
 
         Raises:
-            GeometryError: There is no such robot.
+            GeometryError: There is no such robot, or these are no times.
         """
         courses, laws = self.courses.packed, self.laws.packed
-        robot = index_of(self.names, name)
+        robot, times = index_of(self.names, name), numbers_from("times", times)
         if name in self.by_clock:
             return np.asarray(self.by_clock[name].distance_at(times))
         nodes = slice(int(courses.first[robot]), int(courses.first[robot + 1]))
