@@ -47,6 +47,23 @@ def curvature_bound(curve: PiecewiseCubic, least: float = 0.0) -> tuple[float, f
     return float(upper[span]), float(span + w[span])
 
 
+def is_round(curve: PiecewiseCubic, radius: float) -> bool:
+    """Whether a curve is proven to bend nowhere more sharply than a circle; no corner is round.
+
+    Args:
+        curve: Any piecewise cubic.
+        radius: Of the circle [m]; without one only corners and cusps are too sharp.
+
+    Example:
+        >>> bend = PiecewiseCubic([[(0, 0), (1, 2), (2, 2), (3, 0)]])
+        >>> [is_round(bend, radius) for radius in (0.0, 0.74, 0.76)]
+        [True, True, False]
+    """
+    if not radius > 0.0:
+        return math.isfinite(curvature_bound(curve)[0])
+    return curvature_bound(curve, 1.0 / radius)[0] <= 1.0 / radius
+
+
 def corner_angles(curve: PiecewiseCubic) -> NDArray[np.float64]:
     """The angles by which the tangent jumps at the joints [rad], shape (m + 1,), in [0, pi].
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viaspline.curve.bending import curvature_bound
+from viaspline.curve.bending import is_round
 from viaspline.curve.path import Path, PathVia
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats, Ints
@@ -81,15 +81,9 @@ def stepped_aside(plan: Plan, discs: Floats) -> SteppedAside:
     )  # fmt: skip
     if failed >= 0:
         return SteppedAside(None, int(failed))
-    found = plan_along(plan, spans, marks)
-    sharper = found is not None and _is_round(plan) and not _is_round(found)
-    return SteppedAside(None if sharper else found)
-
-
-def _is_round(plan: Plan) -> bool:
-    """Whether no turn is sharper than the robot's own body."""
-    radius = plan.mission.robot.outer_radius
-    return radius <= 0.0 or curvature_bound(plan.path, 1.0 / radius)[0] <= 1.0 / radius
+    found, radius = plan_along(plan, spans, marks), plan.mission.robot.outer_radius
+    is_sharp = found is not None and radius > 0.0 and not is_round(found.path, radius)
+    return SteppedAside(None if is_sharp and is_round(plan.path, radius) else found)
 
 
 def plan_along(plan: Plan, spans: Floats, marks: Ints) -> Plan | None:

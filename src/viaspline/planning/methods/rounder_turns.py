@@ -39,7 +39,7 @@ class RounderTurns:
         by_time = problem.requirements.objective.is_time
         if not isinstance(outcome, Found) or not by_time or problem.kept_lanes.are_any:
             return outcome
-        if problem.is_round(outcome.value) or problem.own_radius <= problem.sharpest:
+        if problem.own_radius <= problem.sharpest or problem.is_round(outcome.value):
             return outcome
         most = MOST_LONGER * outcome.cost
         try:

@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from viaspline.curve.bending import curvature_bound
+from viaspline.curve.bending import curvature_bound, is_round
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.cleared_spline import ClearedSpline
@@ -169,7 +169,7 @@ class TurningProblem(PathProblem):
     def is_drivable(self, spans: Floats) -> bool:
         """Whether the body keeps clear, and no turn is sharper than the turning circle."""
         limit = self.requirements.turn_radius
-        if limit is not None and not self._curvature_bound(spans) * limit <= 1.0:
+        if limit is not None and not curvature_bound(self._ground(spans))[0] * limit <= 1.0:
             return False
         return self.is_clear(spans)
 
@@ -182,21 +182,14 @@ class TurningProblem(PathProblem):
         parts = [part for part in np.split(spans, spline_path.joints[spots]) if len(part)]
         if spots and self.sequence.closed and 0 not in self.spots:
             parts.append(spans[[-1, 0]])  # its seam
-        return all(self._is_round(part) for part in parts)
-
-    def _is_round(self, spans: Floats) -> bool:
-        """Whether no turn on spans without corners is sharper than the circle round the body."""
         radius = self.requirements.outer_radius
-        if not radius > 0.0:
-            return self._curvature_bound(spans) * radius <= 1.0
-        return self._curvature_bound(spans, 1.0 / radius) <= 1.0 / radius
+        return all(is_round(self._ground(part), radius) for part in parts)
 
-    def _curvature_bound(self, spans: Floats, least: float = 0.0) -> float:
-        """What the curvature is nowhere above, at least what nobody looks below [1/m]."""
+    def _ground(self, spans: Floats) -> PiecewiseCubic:
+        """The ground track of spans; with the seam, if they are a round: no turn there either."""
         flat = np.ascontiguousarray(spans[:, :, :2])
         is_closed = self.sequence.closed and np.array_equal(flat[0, 0], flat[-1, 3])
-        ground = PiecewiseCubic(flat, closed=is_closed)  # with the seam: no turn there either
-        return curvature_bound(ground, least)[0]
+        return PiecewiseCubic(flat, closed=is_closed)
 
     def cost(self, spline_path: SplinePath) -> float:
         """What a path is chosen by [s or m]."""

@@ -64,7 +64,6 @@ def _from_above(plan: SpatialPlan) -> dict[str, Any]:
     """What a plan in space has in common with one in the plane."""
     path, proof = plan.path, plan.certificate
     joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
-    radius = plan.sharpest_radius
     return {
         "spans": flat(path.spans),
         "joints": rounded(joints),
@@ -77,7 +76,7 @@ def _from_above(plan: SpatialPlan) -> dict[str, Any]:
             for via, distance in zip(path.vias, path.via_distances, strict=True)
         ],
         "length": path.length,
-        "curvature": 0.0 if math.isinf(radius) else 1.0 / radius,
+        "curvature": 1.0 / plan.sharpest_radius,
         "certificate": {
             "clearance": finite(proof.clearance),
             "required": proof.required,
