@@ -14,7 +14,7 @@ from viaspline.kernels.turning.strip_places import strip_normals
 from viaspline.kernels.turning.strip_spans import strip_spans
 from viaspline.kernels.turning.swept_sides import swept_sides
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.turning.strip_body import strip_body
+from viaspline.planning.turning.strip_body import strip_bodies
 
 KEPT = 0.2
 TRUCK = ((-0.4, -0.5), (1.6, -0.5), (1.6, 0.5), (-0.4, 0.5))
@@ -31,7 +31,7 @@ def reached(
     closed: bool = False,
 ) -> tuple[Floats, Floats, Floats]:
     """How far to the left and to the right of each place, by the kernel [m]; the curve's spans."""
-    body = strip_body(Requirements(radius=0.3, clearance=KEPT, footprint=outline))
+    body = strip_bodies(Requirements(radius=0.3, clearance=KEPT, footprint=outline), 0.0)[0]
     normals = strip_normals(places, closed)
     spans = strip_spans(places, normals, np.full((2, 2), np.nan), closed)
     beside, half = np.empty(len(places)), np.empty(len(places))

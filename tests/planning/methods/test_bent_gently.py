@@ -15,6 +15,7 @@ from viaspline.planning.methods.bent_gently import BentGently
 from viaspline.planning.problem.path_pace import Pace
 
 KEPT = 1.0
+SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 CART = ((-0.7, -0.6), (1.3, -0.6), (1.3, 0.6), (-0.7, 0.6))
 
 
@@ -242,3 +243,21 @@ def test_a_body_that_has_no_room_to_turn_at_its_ends_bends_less_between_them(
     assert bending(plan.spans)[0] < 0.9 * bending(turns.spans)[0]
     for u, end in ((0.0, 0.0), (float(len(plan.spans)), float(len(turns.spans)))):
         np.testing.assert_allclose(plan.tangent(u), turns.tangent(end), atol=1e-9)
+
+
+def among_cells(seed: int, radius: float) -> vs.Mission:
+    """A disc among blocked cells of a quarter of a metre."""
+    blocked = np.argwhere(np.random.default_rng(seed).uniform(size=(40, 16)) < 0.3) / 4
+    cells = [{"polygon": (at + SQUARE / 4).tolist()} for at in blocked]
+    return vs.Mission.model_validate({
+        "world": {"known": cells},
+        "robot": {"radius_m": radius, "clearance_m": 0, "max_speed_mps": 2, "max_accel_mps2": 1},
+        "route": {"start": [-0.2, 2.1], "goal": [10.2, 2.1]},
+    })  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", [1, 13])
+def test_small_robots_are_no_later_than_larger_ones(seed: int) -> None:
+    thin, fat = (vs.plan(among_cells(seed, radius)) for radius in (0.0005, 0.01))
+    assert thin.trajectory.duration <= fat.trajectory.duration  # 10.1 and 8.5 s for 1, before
+    assert thin.certificate.clearance >= 0.0

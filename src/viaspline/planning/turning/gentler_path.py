@@ -5,6 +5,8 @@ Tested through ``planning/methods/test_bent_gently``.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
@@ -18,7 +20,7 @@ from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.gentle_strip import gentle_strips
 from viaspline.planning.turning.laid_turns import through_spans
 from viaspline.planning.turning.lane_turns import BESIDE_LANE
-from viaspline.planning.turning.strip_body import strip_body
+from viaspline.planning.turning.strip_body import strip_bodies
 from viaspline.planning.turning.tension_search import GENTLE_SHARE, RunPrice
 
 LEAST_RUN = 4.0  # of a run that has room to bend less, in required distances
@@ -113,8 +115,6 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
     if is_short or before * run.length < STRAIGHT:
         return None
     needs = problem.requirements
-    each = STRIP_SPAN_S if needs.footprint is None else STRIP_BODY_SPAN_S
-    needs.spend(STRIP_S + each * len(run.laid.spans))
     pace, stands = needs.objective.pace, run.stands
 
     def time(spans: Floats, joints: Ints) -> float:
@@ -128,7 +128,7 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
     price = RunPrice(time, now, before, known, slowing)
     least_radius = max(pace.widest_radius, (1.0 + SHARPER) * needs.outer_radius)
     fast = 1.0 / least_radius if pace.widest_radius > 0.0 else 0.0
-    for bent in gentle_strips(run, problem.world, strip_body(needs), price):
+    for bent in _strips(run, problem, price):
         peak = bending(bent.spans)[1]
         is_sharper = peak > (1.0 + SHARPER) * max(sharpest, fast)
         is_round = peak * needs.outer_radius <= 1.0
@@ -136,3 +136,12 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
         if (not is_sharper or (is_round and is_sooner)) and problem.is_drivable(bent.spans):
             return bent
     return None
+
+
+def _strips(run: BendableRun, problem: DrivenProblem, price: RunPrice) -> Iterator[LaidRun]:
+    """The strips in the place of a run, as is kept beside them in the first place."""
+    needs = problem.requirements
+    each = STRIP_SPAN_S if needs.footprint is None else STRIP_BODY_SPAN_S
+    for body in strip_bodies(needs, run.length):
+        needs.spend(STRIP_S + each * len(run.laid.spans))
+        yield from gentle_strips(run, problem.world, body, price)
