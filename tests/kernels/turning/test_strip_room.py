@@ -35,6 +35,22 @@ def test_a_place_may_go_as_far_as_it_keeps_clear(off: float, aside: float) -> No
         assert np.isinf(low).all()
 
 
+@pytest.mark.parametrize(("left", "right"), [(2.05, -2.2), (2.3, -2.1)])
+def test_in_a_gap_it_is_told_how_far_a_place_may_go_on_both_sides(
+    left: float, right: float
+) -> None:
+    rocks = [vs.Obstacle(circle={"center": (5.0, at), "radius": 1.0}) for at in (left, right)]
+    places = np.array([[0.0, 0.0], [5.0, 0.0], [10.0, 0.0]])
+    normals = np.tile([0.0, 1.0], (3, 1))
+    low, high = np.full(3, -np.inf), np.full(3, np.inf)
+    spans = strip_spans(places, normals, np.full((2, 2), np.nan), False)
+    rest = np.empty(3), np.empty(3)
+    world = vs.World(rocks).packed
+    strip_room(world, places, normals, spans, np.zeros(3), np.ones(3), low, high, *rest)
+    assert high[1] == pytest.approx(left - 2.0, abs=1e-3)
+    assert low[1] == pytest.approx(right + 2.0, abs=1e-3)
+
+
 @given(
     st.lists(st.tuples(st.floats(-40, 50), st.floats(-40, 40)), max_size=3), st.floats(18.0, 60.0)
 )

@@ -261,3 +261,29 @@ def test_small_robots_are_no_later_than_larger_ones(seed: int) -> None:
     thin, fat = (vs.plan(among_cells(seed, radius)) for radius in (0.0005, 0.01))
     assert thin.trajectory.duration <= fat.trajectory.duration  # 10.1 and 8.5 s for 1, before
     assert thin.certificate.clearance >= 0.0
+
+
+def through_door(width: float, off: float) -> vs.Mission:
+    """A disc of a metre, and a door of some width in a wall, so far beside the straight way."""
+    jambs = [
+        {"polygon": (np.array([10.0, low]) + SQUARE * (0.2, high - low)).tolist()}
+        for low, high in ((-30.0, off - 0.5 * width), (off + 0.5 * width, 30.0))
+    ]
+    discs = [
+        {"circle": {"center": at, "radius": 1}} for at in ((4.0, 1.0), (15.0, -0.5))
+    ]  # fmt: skip
+    return vs.Mission.model_validate({
+        "world": {"known": jambs + discs},
+        "robot": {"radius_m": 0.5, "clearance_m": 0, "max_speed_mps": 2, "max_accel_mps2": 1},
+        "route": {"start": [0, 0], "goal": [20, 0]},
+    })  # fmt: skip
+
+
+@pytest.mark.parametrize(("spare", "off"), [(5e-4, 0.0), (0.02, 0.0), (1e-3, 4.0), (0.01, 1.5)])
+def test_doors_that_just_fit_are_driven_through_as_soon_as_wide_ones(
+    spare: float, off: float
+) -> None:
+    wide, fits = (vs.plan(through_door(1.0 + more, off)) for more in (0.3, spare))
+    within = 1.01 * wide.trajectory.duration  # 16.7 and 12.9 s for 1e-3 and 4, before
+    assert fits.trajectory.duration <= within
+    assert fits.certificate.clearance >= 0.0

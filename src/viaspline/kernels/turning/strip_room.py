@@ -16,6 +16,8 @@ NEAR = 1.2  # in required distances: where it is looked for so
 FAR = 4.0  # of that: farther off need not be told apart
 LEAST_REACH = 0.5  # in required distances, that a place may move at once
 PROBE_M = 1e-5
+ACROSS = 0.5  # in required distances: so far on the other side it is looked for what is there
+ALONE = 0.9  # of the distance that is won by going there, where nothing is
 LEAST_SLOPE = 0.05  # of a distance, across the path, of what stands beside it
 
 
@@ -83,6 +85,16 @@ def _least_about(
 
 
 @inlined
+def _least_sampled(
+    world: PackedWorld, spans: Floats, off: tuple[float, float], j: int, gap: float
+) -> float:
+    """The least distance about place j, at samples, at most a gap [m]; see ``_least_about``."""
+    for i in range(SAMPLES + 1):
+        gap = _gap(world, spans, off, j + i / SAMPLES - 0.5, gap)
+    return gap
+
+
+@inlined
 def _is_open(world: PackedWorld, places: Floats, beside: Floats, kept: Floats) -> bool:
     """Whether nothing stands so near to any place of a strip that it would be looked for.
 
@@ -129,8 +141,8 @@ def strip_room(
 ) -> None:  # fmt: skip
     """Look how far places may move: closely about those that have little room.
 
-    What stands there is taken to end at the straight line square to its nearest point; what was
-    known of the other side stays.
+    What stands there is taken to end at the straight line square to its nearest point. So is what
+    stands close by on the other side; farther off, what was known of that side stays.
 
     Args:
         world: What stands there.
@@ -174,7 +186,19 @@ def strip_room(
         further, _ = nearest(world, x + PROBE_M * nx, y + PROBE_M * ny, gap + kept[j])
         slope = (further - gap) / PROBE_M
         rooms[j], reach[j] = gap - kept[j], max(gap, LEAST_REACH * kept[j])
-        if slope > LEAST_SLOPE:
+        if abs(slope) <= LEAST_SLOPE:
+            continue
+        aside = math.copysign(ACROSS * kept[j], slope)
+        further, _ = nearest(world, x + aside * nx, y + aside * ny, gap + kept[j])
+        is_between = further < gap + ALONE * slope * aside
+        if is_between:
+            off = (off[0] + aside * nx, off[1] + aside * ny)
+            further = _least_sampled(world, spans, off, j, further)
+        if slope > 0.0:
             low[j] = -rooms[j] / slope
-        elif slope < -LEAST_SLOPE:
+            if is_between:
+                high[j] = min(high[j], aside + further - kept[j])
+        else:
             high[j] = -rooms[j] / slope
+            if is_between:
+                low[j] = max(low[j], aside - further + kept[j])

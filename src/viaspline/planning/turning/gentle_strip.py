@@ -20,8 +20,10 @@ from viaspline.planning.turning.tense_strip import TenseStrip
 from viaspline.planning.turning.tension_search import RunPrice, TensionSearch, Tried
 from viaspline.world.world import World
 
+FINENESSES = 1.0, 4.0  # of places, in the order in which they are tried
 MOST_TENSIONS = 8  # that are tried
 MOST_RESTLESS = 1  # of them, at which places don't come to rest: no more are tried
+MOST_OTHERS = 2  # than the chosen one, that are laid where that can't be driven
 SHARP = 0.5  # of the sharpest curvature, from which on more is dearer
 LEAST_BLUNTER = 0.01  # of the sharpest curvature, that has to be saved
 SETTLED, NEARLY_SETTLED = 0.02, 0.1  # of what is required: places move by less in the last round
@@ -43,20 +45,33 @@ def gentle_strips(
         near to each other, then as it was found, which is less smooth; those that rest, and bend
         less than the run.
     """
-    chosen = _chosen(run, world, body, price)
-    if chosen is None:
-        return
-    for strip in _as_fine_as_it_rests(chosen, price):
-        if strip.is_settled and price.is_gentler(bending(strip.spans)[0]):
-            yield strip.laid
+    for strip in _finer_and_finer(run, world, body):
+        for tried in _promising(strip, price):
+            for one in _as_fine_as_it_rests(tried, price):
+                if one.is_settled and price.is_gentler(bending(one.spans)[0]):
+                    yield one.laid
 
 
-def _chosen(run: BendableRun, world: World, body: StripBody, price: RunPrice) -> Tried | None:
-    """The strip of the least tension that takes hardly longer; None if no such one was found."""
-    search, strip = TensionSearch(price), TenseStrip.along(run, world, body)
+def _finer_and_finer(run: BendableRun, world: World, body: StripBody) -> Iterator[TenseStrip]:
+    """A strip as a run lies, then one with more places: in a gap that just fits those are needed.
+
+    One place by itself can't keep clear of what stands on either side of it, one a little before
+    and one a little behind.
+    """
+    count = 0
+    for fineness in FINENESSES:
+        strip = TenseStrip.along(run, world, body, fineness)
+        if len(strip.strip.places) > count:
+            yield strip
+        count = len(strip.strip.places)
+
+
+def _promising(strip: TenseStrip, price: RunPrice) -> Iterator[Tried]:
+    """The strip of the least tension that takes hardly longer, then others, the soonest first."""
+    search = TensionSearch(price)
     if strip.has_kink:
-        return None
-    tension, restless = search.first / run.length, 0
+        return
+    tension, restless = search.first / strip.run.length, 0
     for _ in range(MOST_TENSIONS):
         moved = strip.settled(tension, NEARLY_SETTLED)
         search = search.having(_tried(strip, moved, tension, price))
@@ -65,7 +80,10 @@ def _chosen(run: BendableRun, world: World, body: StripBody, price: RunPrice) ->
         if following is None or restless > MOST_RESTLESS:
             break
         strip, tension = following
-    return search.chosen
+    if search.chosen is None:
+        return
+    yield search.chosen
+    yield from search.others[:MOST_OTHERS]
 
 
 def _as_fine_as_it_rests(chosen: Tried, price: RunPrice) -> Iterator[TenseStrip]:

@@ -42,21 +42,23 @@ class TenseStrip:
     is_settled: bool = False
 
     @classmethod
-    def along(cls, run: BendableRun, world: World, body: StripBody) -> TenseStrip:
+    def along(
+        cls, run: BendableRun, world: World, body: StripBody, fineness: float
+    ) -> TenseStrip:  # fmt: skip
         """A strip as a run of a path lies."""
         laid = run.laid
         strip = placed_strip(
-            world.packed, body, run.ends, run.closed, 1.0, laid.spans, laid.joints
+            world.packed, body, run.ends, run.closed, fineness, laid.spans, laid.joints
         )  # fmt: skip
-        return cls(run, world, body, 1.0, strip)
+        return cls(run, world, body, fineness, strip)
 
     def finer(self) -> TenseStrip:
         """It with places nearer to each other."""
-        run = self.run
+        run, fineness = self.run, FINE * self.fineness
         strip = placed_strip(
-            self.world.packed, self.body, run.ends, run.closed, FINE, self.spans, self.joints
+            self.world.packed, self.body, run.ends, run.closed, fineness, self.spans, self.joints
         )  # fmt: skip
-        return TenseStrip(run, self.world, self.body, FINE, strip)
+        return TenseStrip(run, self.world, self.body, fineness, strip)
 
     def settled(self, tension: float, settled: float, sharp: float = math.inf) -> TenseStrip:
         """It with its places moved to where that costs least, for some rounds at most.

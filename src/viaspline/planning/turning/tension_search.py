@@ -99,6 +99,12 @@ class TensionSearch:
         return next((one for one in self._gentler if self._spent(one) <= 1.0), None)
 
     @property
+    def others(self) -> list[Tried]:
+        """Those that bend less and are sooner than what was laid, but for the chosen one."""
+        sooner = (one for one in self._gentler if one.time < self.price.time)
+        return sorted((one for one in sooner if one is not self.chosen), key=lambda one: one.time)
+
+    @property
     def following(self) -> tuple[TenseStrip, float] | None:
         """With what to begin at which tension next; None where there is no need to."""
         chosen, gentler = self.chosen, self._gentler
