@@ -49,8 +49,9 @@ LEAST_STEP_M = FIRST_STEPS_M[0]
 """One that stands doesn't set off for less: by steps of a hair it would neither come on nor have
 stood for long [m]."""
 
-FREED_M = 0.01
-"""Who has come so much farther has got free [m]."""
+FREED_M, FREED_SHARE = 0.01, 2e-3
+"""Who has come so much farther has got free [m], and that share of what full speed takes it in the
+time for which it may stand: one that creeps on by a few centimetres a minute hasn't."""
 
 PIECE_S = 0.02
 """A law with a limit of the jerk is taken in pieces of even acceleration, so long [s]."""
@@ -194,7 +195,7 @@ def _patient(
         is_frozen: Whether no step of it is proven now.
     """
     since, at = schedule.frozen_since, schedule.frozen_at
-    if schedule.driven + here > at + FREED_M:
+    if schedule.driven + here > at + max(FREED_M, FREED_SHARE * robot.max_speed_mps * MAX_FROZEN_S):
         since, at = math.inf, math.inf
     if is_frozen and since == math.inf:
         since, at = now, schedule.driven + here
