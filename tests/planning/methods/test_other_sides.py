@@ -23,10 +23,12 @@ from viaspline.planning.turning.likely_price import LikelyPrice
 CELL = 0.5
 
 
-def on_map(blocked: np.ndarray, start: list[float], goal: list[float]) -> vs.Mission:
+def on_map(
+    blocked: np.ndarray, start: list[float], goal: list[float], radius: float = 0.3
+) -> vs.Mission:
     """From one place on a map to another, at 3 m/s with 1 m/s² both ways."""
     grid = vs.Obstacle(grid=vs.Grid(blocked, CELL))
-    robot = {"radius_m": 0.3, "clearance_m": 0.1, "max_speed_mps": 3.0, "max_accel_mps2": 1.0}
+    robot = {"radius_m": radius, "clearance_m": 0.1, "max_speed_mps": 3.0, "max_accel_mps2": 1.0}
     return vs.Mission.model_validate(
         {"world": {"known": [grid]}, "robot": robot, "route": {"start": start, "goal": goal}}
     )
@@ -52,6 +54,15 @@ def test_a_longer_way_is_taken_where_the_shortest_one_loses_more_to_its_bends() 
     assert paths["time"].trajectory.duration < paths["length"].trajectory.duration
 
 
+def test_a_leg_is_led_past_the_gaps_that_it_turns_sharply_in() -> None:
+    """The ways round islands differ from the shortest by more than one gap: 19.0 s by those."""
+    blocked = np.random.default_rng(7).random((40, 40)) < 0.3
+    blocked[20, [0, 1, -2, -1]] = False
+    plan = vs.plan(on_map(blocked, [0.5, 10.25], [19.5, 10.25], 0.05))
+    assert plan.trajectory.duration < 17.5
+    assert plan.certificate.clearance >= 0.1
+
+
 def test_of_ways_among_much_else_one_that_is_likely_later_is_not_laid() -> None:
     mission = on_map(two_doors(), [2.0, 10.0], [28.0, 10.0])
     requirements, world = Requirements.of(mission), vs.World.known(mission)
@@ -66,7 +77,8 @@ def test_of_ways_among_much_else_one_that_is_likely_later_is_not_laid() -> None:
     (passed,) = problem.cleared.passed.values()
     (sooner, *_) = sorted(price.least(row.with_leg(0, way)) for way in passed.rivals)
     assert DrivenPrice(problem).least(row) < sooner < laid.cost
-    detour = np.array([[40.0, 9.5, 0, 0, 0, 0, 0, 0], *row.taut_paths[0].corners])
+    start, *others = row.taut_paths[0].corners
+    detour = np.array([start, [2.0, 25.0, 0, 0, 0, 0, 0, 0], *others])
     far = replace(row.taut_paths[0], corners=detour, bends=np.empty((0, 6)))
     assert price.least(row.with_leg(0, far)) > laid.cost
 

@@ -7,9 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 
+import numpy as np
+
+from viaspline.kernels.routing.tangent_arcs import BEND_RADIUS, HEADING_IN, SIDE, TURN
 from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, cheapest_laid
 from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
@@ -20,6 +23,9 @@ from viaspline.planning.turning.likely_price import LikelyPrice
 MAX_SOUGHT_BENDS = 60
 """Legs among much else are led to other sides in rows of no more bends: to lay one takes longer
 than what is gained by one of so many turns."""
+
+MOST_GAPS, LEAST_TURN_RAD = 4, 0.3
+"""A leg among much else is led past the gaps in which it turns most, and by so much at least."""
 
 MAX_LAID = 60_000
 """Rows that are laid to find a better one, times the square of their bends: what that costs."""
@@ -72,7 +78,7 @@ class OtherSides:
 
 
 def _other_rows(problem: DrivenProblem, row: TautRow, laid: SplinePath) -> Iterator[TautRow]:
-    """The rows that pass a group on another side, of those legs that don't yet.
+    """The rows that pass something on another side, of those legs that don't yet.
 
     Args:
         problem: What is to be driven.
@@ -82,7 +88,29 @@ def _other_rows(problem: DrivenProblem, row: TautRow, laid: SplinePath) -> Itera
     is_short = len(problem.bends.rows) <= MAX_SOUGHT_BENDS
     for leg, passed in problem.cleared.passed.items():
         is_shortest = row.taut_paths[leg] is problem.shortest_row.taut_paths[leg]
-        is_sought = passed.in_the_way.is_little or (is_short and problem.loses_much(laid, leg))
-        if is_shortest and is_sought:
+        is_little = passed.in_the_way.is_little
+        if is_shortest and (is_little or (is_short and problem.loses_much(laid, leg))):
             for taut_path in passed.rivals:
                 yield row.with_leg(leg, taut_path)
+            if not is_little and problem.requirements.budget is None:  # else there is no time
+                yield from _past_sharpest(problem, row, leg)
+
+
+def _past_sharpest(problem: DrivenProblem, row: TautRow, leg: int) -> Iterator[TautRow]:
+    """The rows without the gaps in which a leg turns most.
+
+    A way round an island may differ from the shortest by one gap beside it alone.
+    """
+    search = problem.legs[leg]
+    near = replace(search, router=search.router.among_made)
+    bends = row.taut_paths[leg].bends[1:-1]
+    turns = np.abs(bends[:, TURN])
+    for k in np.argsort(-turns)[:MOST_GAPS].tolist():
+        if turns[k] < LEAST_TURN_RAD:
+            break
+        way = bends[k, HEADING_IN] + 0.5 * bends[k, TURN]
+        out = bends[k, SIDE] * np.array([math.sin(way), -math.cos(way)])
+        by = bends[k, :2] + (bends[k, BEND_RADIUS] - problem.requirements.required) * out
+        other = row.past_gap(near, by)
+        if other is not None:
+            yield other

@@ -23,7 +23,7 @@ from viaspline.planning.turning.bend_row import DETOUR, Bends, bend, rows_along
 from viaspline.planning.turning.driven_price import DrivenPrice
 from viaspline.planning.turning.turn_path import NoTurnPath, turn_path_on_sides
 
-UNSURE = 1.03  # of what is told, by which a way may be better
+UNSURE = 1.06  # of what is told, by which a way may be better
 
 
 @dataclass(frozen=True, eq=False)
