@@ -45,7 +45,7 @@ def test_the_router_asks_for_it_where_cells_are_too_wide() -> None:
     problem = asked(0.0085, 0.004)
     router = problem.space
     assert isinstance(router, Router)
-    blunt = Router(router.world, router.required, ENDS, methods=router.methods[:-1])
+    blunt = Router(router.world, router.required, ENDS, methods=router.methods[:-2])
     assert isinstance(blunt.find(*ENDS, NO_BARRIERS, problem.active.copy()), GaveUp)
     found = router.find(*ENDS, NO_BARRIERS, problem.active)
     assert isinstance(found, Found)

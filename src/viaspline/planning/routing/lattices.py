@@ -34,6 +34,7 @@ CELLS_WANTED, CELLS_QUICK = 2**16, 2**20  # of the lattice that is tried first w
 CELLS_SHORTEST = 2**22  # the most of it where it is the length that counts,
 CELLS_FINE = 2**24  # and of the one that is tried beside it there
 MAX_CELLS = 2**25  # of any lattice
+MORE_ABOUT_IT = 1.005  # of what cells have to cover, aside, for a robot that needs more
 # Of a lattice on a map's lines, and if that is more, in cells of the maps: beyond, what lies about
 # a small map has more of its cells than fit in memory, and the lattice lies across them.
 MAX_ON_MAP_LINES, MAX_OF_MAP = 4 * MAX_CELLS, 2.0
@@ -92,6 +93,20 @@ def fine_lattice(
         if area <= most_cells * side**2:
             return _cells(world, required, floor, box, side)
     return None
+
+
+def least_required(world: World, required: float, places: Floats) -> float:
+    """What a robot needs at least for cells to be small beside it [m]; 0 with maps.
+
+    Args:
+        world: What to keep clear of.
+        required: By a slimmer one [m].
+        places: Where it has to get to [m], (n, 2).
+    """
+    if not math.isinf(_resolution(world)):
+        return 0.0
+    finest = math.sqrt(_area(_box(world, required, places)) / MAX_CELLS)
+    return MORE_ABOUT_IT * finest / OPEN_CELL_RADII
 
 
 def _cells(world: World, required: float, floor: float, box: Box, side: float) -> Lattice:

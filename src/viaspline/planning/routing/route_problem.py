@@ -17,7 +17,12 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.kernels.world.segment import mark_near_segment
 from viaspline.planning.routing.lattice import Lattice
-from viaspline.planning.routing.lattices import CELLS_QUICK, fine_lattice, lattices
+from viaspline.planning.routing.lattices import (
+    CELLS_QUICK,
+    fine_lattice,
+    lattices,
+    least_required,
+)
 from viaspline.planning.routing.pulled_guides import PulledGuides
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
@@ -36,6 +41,7 @@ MADE_AGAIN = (
     "fine_lattices",
     "pulled",
     "among_made",
+    "of_fatter",
 )  # of a search space, where that is needed
 MAX_DISC_PAIRS = 200_000  # near enough to each other that their gaps are looked at all at once
 
@@ -127,6 +133,17 @@ class SearchSpace:
         """The finest one of use, where there is one."""
         made = fine_lattice(self.world, self.required, self.floor, self.places)
         return () if made is None else (made,)
+
+    @cached_property
+    def of_fatter(self) -> SearchSpace | None:
+        """That of the slimmest robot that cells are small beside; None if this one is no slimmer.
+
+        A way for a fat robot is one for a slim one.
+        """
+        required = least_required(self.world, self.required, self.places)
+        if required <= self.required:
+            return None
+        return SearchSpace(self.world, required, self.places, margins=self.margins)
 
     @cached_property
     def pulled(self) -> PulledGuides:

@@ -12,6 +12,7 @@ import numpy as np
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.planning.problem.method import Method, Outcome, first_settled
 from viaspline.planning.routing.exact_route import ExactRoute
+from viaspline.planning.routing.fatter_route import FatterRoute
 from viaspline.planning.routing.fine_route import FineRoute
 from viaspline.planning.routing.lattice_route import LatticeRoute
 from viaspline.planning.routing.lattices import CELLS_SHORTEST
@@ -35,11 +36,12 @@ ROUTE_METHODS: tuple[RouteMethod, ...] = (
     LatticeRoute(),
     ExactRoute(MAX_EXACT_OBSTACLES, MAX_EXACT_AGAIN, LEAST_GAIN_AGAIN),
     FineRoute(max_met=MAX_EXACT_AGAIN),
+    FatterRoute(),
 )
 AMONG_MADE: tuple[RouteMethod, ...] = (
     ROUTE_METHODS[0],
     LatticeRoute(lattices=SearchSpace.made_lattices),
-    *ROUTE_METHODS[2:],
+    *ROUTE_METHODS[2:-1],
 )
 SHORTEST_METHODS: tuple[RouteMethod, ...] = (
     ROUTE_METHODS[0],
