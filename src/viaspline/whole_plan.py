@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
-from viaspline.curve.certificate import Certificate
+from viaspline.curve.certificate import PROOF_SLACK_M, Certificate
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.machine.allowance import TrialDrives, allowance_on_bends, tracking_remedy
@@ -93,9 +93,10 @@ class Plan(ShownValue, SavedValue, ComparedByValue):
         )  # fmt: skip
 
     def __repr__(self) -> str:
+        clear = self.certificate.clearance + PROOF_SLACK_M  # what just touches isn't -0.00 m off
         return (
             f"<Plan: {self.path.length:.1f} m in {self.trajectory.duration:.1f} s, "
-            f"{self.certificate.clearance:.2f} m clear, {len(self.path.vias)} via points>"
+            f"{clear:.2f} m clear, {len(self.path.vias)} via points>"
         )
 
     @property

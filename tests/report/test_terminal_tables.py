@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from rich.console import Console, RenderableType
 
+from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.report.summary import spline_words, summary, tension
 from viaspline.report.terminal_tables import ledger_table, plan_tables, run_tables
+from viaspline.report.units import JUST_TOUCHING_M, down
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 
@@ -22,6 +24,11 @@ def _text(tables: RenderableType) -> str:
     stream = io.StringIO()
     Console(file=stream, width=160, markup=False).print(tables)
     return stream.getvalue()
+
+
+def test_what_just_touches_is_told_as_what_was_asked() -> None:
+    assert JUST_TOUCHING_M == PROOF_SLACK_M
+    assert (down(-0.3e-6), down(0.4999995), down(0.4999985)) == ("0.000 m", "0.500 m", "0.499 m")
 
 
 def test_the_plan_is_told_in_figures(planned: Plan) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+JUST_TOUCHING_M = 1e-6  # as ``PROOF_SLACK_M``, which takes numba to import [m]
+
 
 def metres(value: float | None, digits: int = 2) -> str:
     """A length.
@@ -26,14 +28,16 @@ def metres(value: float | None, digits: int = 2) -> str:
 def down(value: float) -> str:
     """A proven clearance: rounded down, so that it promises no more than was proven.
 
+    But for the micrometre that a proof may lack: what just touches 0.5 m keeps 0.5 m.
+
     Example:
-        >>> down(0.5059), down(0.4999999), down(49.4999), down(float("inf"))
-        ('0.505 m', '0.499 m', '49.4 m', 'unlimited')
+        >>> down(0.5059), down(0.49999), down(0.4999999), down(49.4999), down(float("inf"))
+        ('0.505 m', '0.499 m', '0.500 m', '49.4 m', 'unlimited')
     """
     if not math.isfinite(value):
         return metres(value)
     digits = 3 if value < 10 else 1
-    return metres(math.floor(value * 10**digits + 1e-6) / 10**digits, digits)
+    return metres(math.floor((value + JUST_TOUCHING_M) * 10**digits) / 10**digits, digits)
 
 
 def asked_words(value: float, tracking_error: float = 0.0) -> str:

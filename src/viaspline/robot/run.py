@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.certificate import Certificate
+from viaspline.curve.certificate import PROOF_SLACK_M, Certificate
 from viaspline.curve.path import Path
 from viaspline.machine.excess import Excess, excesses
 from viaspline.machine.tracking import Tracking
@@ -219,7 +219,7 @@ class Run(ShownValue, MovingValue, SavedValue, ComparedByValue):
     def __repr__(self) -> str:
         end = told_in_short(self.reached, self.reason, self.encounters)
         return (
-            f"<Run: {self.duration:.1f} s, {self.least_clearance:.2f} m clear, "
+            f"<Run: {self.duration:.1f} s, {self.least_clearance + PROOF_SLACK_M:.2f} m clear, "
             f"{len(self.replans)} re-plans, {end}>"
         )
 
