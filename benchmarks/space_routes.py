@@ -1,8 +1,11 @@
 """Routes in space: among voxels, among buildings and among mixed shapes, beside OMPL.
 
     python benchmarks/space_routes.py voxels MAP.3dmap [EVERY]   each so-many-th of its problems
+    python benchmarks/space_routes.py plans MAP.3dmap [EVERY]    whole missions: laid and proven
+    python benchmarks/space_routes.py peers MAP.3dmap [EVERY]    A* of pathfinding3d on the cubes
     python benchmarks/space_routes.py memory                a map of 88 million voxels
     python benchmarks/space_routes.py shapes                50 buildings, and 1,000 mixed shapes
+    python benchmarks/space_routes.py flights [50 [1000]]   whole missions in so many of these
     python benchmarks/space_routes.py fastest               the fastest route beside each side's
     python benchmarks/space_routes.py ompl [WORLDS [SECONDS]]   beside InformedRRT*
 
@@ -17,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
+from viaspline.kernels.space.routing.way_checks import way_cost
 from viaspline.maps.voxels import Voxels
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.mission.shapes.solids import Prism, RoundedSegment
@@ -42,12 +46,71 @@ def quartiles(times):
     return f"median {np.median(times):.2f} ms, mean {np.mean(times):.2f}, worst {max(times):.1f}"
 
 
-def voxels(path, every=1):
+def problems_of(path, every):
+    """The cubes of a map, and each so-many-th of its problems: start, goal, length of 26 ways."""
     head, *rows = Path(path).read_text().splitlines()
     blocked = np.zeros(tuple(int(n) for n in head.split()[1:]), bool)
     blocked[tuple(np.array([r.split() for r in rows if r.strip()], int).T)] = True
     lines = Path(path + ".3dscen").read_text().splitlines()[2:]
-    problems = np.array([line.split() for line in lines if line.strip()], float)[:: int(every)]
+    rows = np.array([line.split() for line in lines if line.strip()], float)[:: int(every)]
+    return blocked, rows[:, :7]
+
+
+def plans(path, every=10, optimise="length"):
+    """Missions from cube to cube, planned as anybody's: laid, proven and timed."""
+    import viaspline as vs
+
+    blocked, problems = problems_of(path, every)
+    cubes, (x, y, z) = Voxels(blocked, 1.0), blocked.shape
+    world = {
+        "bounds": [0, 0, x, y],
+        "altitude": {"min_m": BALL, "max_m": z - BALL},
+        "known": [{"voxels": cubes}],
+    }
+    robot = {"radius_m": BALL, "clearance_m": 0.0, "max_speed_mps": 2, "max_accel_mps2": 1}
+    ratios, times, failed = [], [], []
+    for problem in (problems[0], *problems):
+        route = {"start": list(problem[:3] + 0.5), "goal": list(problem[3:6] + 0.5)}
+        mission = vs.Mission.model_validate(
+            {"world": world, "robot": robot, "route": {**route, "optimise": optimise}}
+        )
+        begun = time.process_time()
+        try:
+            plan = vs.plan(mission)
+        except vs.PlanningError as error:
+            failed.append(str(error))
+            continue
+        times.append(1e3 * (time.process_time() - begun))
+        ratios.append(plan.path.length / problem[6] if plan.certificate.holds else math.inf)
+    print(f"{Path(path).name}, by {optimise}: {len(ratios) - 1} of {len(problems)} planned")
+    print(f"proven: {np.isfinite(ratios).sum() - 1}; longer than the optimum of 26 neighbours: "
+          f"{sum(r > 1.0 + 1e-9 for r in ratios[1:])}")  # fmt: skip
+    print(f"length / that optimum: mean {np.mean(ratios[1:]):.4f}, most {max(ratios[1:]):.4f}")
+    print(f"{quartiles(times[1:])}, 99 % {np.percentile(times[1:], 99):.1f}", *failed, sep="\n")
+
+
+def peers(path, every=500):
+    from pathfinding3d.core.diagonal_movement import DiagonalMovement
+    from pathfinding3d.core.grid import Grid
+    from pathfinding3d.finder.a_star import AStarFinder
+
+    blocked, problems = problems_of(path, every)
+    finder = AStarFinder(diagonal_movement=DiagonalMovement.only_when_no_obstacle)
+    ratios, times = [], []
+    for problem in problems:
+        grid = Grid(matrix=(~blocked).astype(np.int8))
+        begun = time.process_time()
+        way, _ = finder.find_path(
+            grid.node(*problem[:3].astype(int)), grid.node(*problem[3:6].astype(int)), grid
+        )
+        times.append(1e3 * (time.process_time() - begun))
+        points = np.array([(node.x, node.y, node.z) for node in way], float)
+        ratios.append(np.linalg.norm(np.diff(points, axis=0), axis=1).sum() / problem[6])
+    print(f"pathfinding3d, A*: {np.mean(ratios):.4f} of the optimum; {quartiles(times)}")
+
+
+def voxels(path, every=1):
+    blocked, problems = problems_of(path, every)
     router = SpaceRouter(SearchRoom.of_voxels(Voxels(blocked, 1.0), BALL))
     timed(router, problems[0, :3] + 0.5, problems[0, 3:6] + 0.5, BALL)
     ratios, times, corners, solved = [], [], [], 0
@@ -148,6 +211,56 @@ def shapes():
               f"{quartiles(times)}")  # fmt: skip
 
 
+def key_of(solid):
+    """A solid as a mission has it."""
+    if isinstance(solid, Prism):
+        corners = [[float(x), float(y)] for x, y in solid.ring.loops[0]]
+        outline = {"polygon": corners}
+        if solid.ring.is_disc:
+            outline = {"circle": {"center": corners[0], "radius": float(solid.ring.radius)}}
+        return {**outline, "height_m": [float(solid.low), float(solid.high)]}
+    ends = [float(x) for x in solid.first], [float(x) for x in solid.last]
+    if ends[0] == ends[1]:
+        return {"ball": {"center": ends[0], "radius": float(solid.radius)}}
+    return {"capsule": {"from": ends[0], "to": ends[1], "radius": float(solid.radius)}}
+
+
+def flights(fifty=20, thousand=10):
+    """Whole missions in the worlds of ``shapes``."""
+    import viaspline as vs
+
+    robot = {
+        "radius_m": 0.5, "half_height_m": 0.3, "clearance_m": CLEARANCE, "max_speed_mps": 10,
+        "max_accel_mps2": 2, "max_climb_mps": 2.5, "max_descent_mps": 1.5,
+    }  # fmt: skip
+    for count, worlds in ((50, int(fifty)), (1000, int(thousand))):
+        for optimise in ("length", "time"):
+            times, ratios, taken, outcomes = [], [], 0.0, []
+            for seed in (0, *range(worlds)):
+                _, solids, start, goal = world(count, seed)
+                mission = vs.Mission.model_validate({
+                    "world": {"bounds": [0, 0, 500, 500], "ground": {"flat_m": 0},
+                              "altitude": {"min_m": 2, "max_m": 100},
+                              "known": [key_of(solid) for solid in solids]},
+                    "robot": robot,
+                    "route": {"start": start.tolist(), "goal": goal.tolist(),
+                              "optimise": optimise},
+                })  # fmt: skip
+                begun = time.process_time()
+                try:
+                    plan = vs.plan(mission)
+                except vs.PlanningError as error:
+                    outcomes.append(type(error).__name__)
+                    continue
+                times.append(1e3 * (time.process_time() - begun))
+                outcomes.append("proven" if plan.certificate.holds else "NOT PROVEN")
+                ratios.append(plan.path.length / math.dist(start, goal))
+                taken += plan.trajectory.duration
+            counted = {kind: outcomes[1:].count(kind) for kind in sorted(set(outcomes))}
+            print(f"{count} solids, by {optimise}: {counted}; {np.mean(ratios[1:]):.4f} of the "
+                  f"straight line, {taken:.1f} s flown; {quartiles(times[1:])}")  # fmt: skip
+
+
 def fastest():
     """The route found under the norm of time, beside those on each side of what it bends at."""
     worse = []
@@ -163,9 +276,7 @@ def fastest():
             if i < len(solids):
                 found = seeds(router, solids[i], start, goal, CLEARANCE, SPEEDS)
                 best = min([best, *(seed.route.cost for seed in found)])
-        d = np.diff(short.value.points, axis=0)
-        upright = np.where(d[:, 2] > 0, d[:, 2] / SPEEDS[1], -d[:, 2] / SPEEDS[2])
-        of_short = np.maximum(np.hypot(d[:, 0], d[:, 1]) / SPEEDS[0], upright).sum()
+        of_short = float(way_cost(np.array(SPEEDS), np.array(short.value.points)))
         worse.append((fast.cost / best if math.isfinite(best) else 1.0, of_short / fast.cost))
     found = np.array(worse)
     print(
@@ -225,5 +336,5 @@ def ompl(worlds=4, seconds=10):
 
 
 if __name__ == "__main__":
-    tables = {f.__name__: f for f in (voxels, memory, shapes, fastest, ompl)}
+    tables = {f.__name__: f for f in (voxels, plans, peers, memory, shapes, flights, fastest, ompl)}
     tables[sys.argv[1]](*sys.argv[2:])

@@ -18,6 +18,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GaveUpError, GeometryError, NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.space.routing.way_checks import way_cost
+from viaspline.maps.voxels import Voxels
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.solids import Solid
 from viaspline.planning.problem.ledger import PassingSide
@@ -47,6 +48,10 @@ LEAST_BODY_M: Final = 0.1
 
 DEARER: Final = 1.3
 """Ways with more room that cost more, of the cheapest, aren't taken for any gentler corners."""
+
+LONGER: Final = 1.05
+"""Ways on other sides of voxels that cost more, of the cheapest, aren't the shortest with corners
+rounded either."""
 
 NEARLY: Final = 1.18
 """By so much at least a side has to be cheaper than that to be looked for with more room."""
@@ -115,13 +120,17 @@ class LegRouter:
         """
         gates = self.gates(leg)
         solid = self._in_the_way(laid)
-        cheapest = self._cheapest(leg, solid)
-        most = DEARER * self._cost(leg, cheapest)
+        taut = self._taut(leg)
+        cheapest = _way_of(solid, taut)
+        most = DEARER * taut.cost
         roomy = list(self._with_room(leg, gates, cheapest.side, most))
         if solid is None or len(gates):
             return _different([cheapest, *roomy])
         ends = self._ends(leg)
-        past = seeds(self._router, solid, *ends, self.problem.required, self._norm)
+        # Sides of voxels are those of all of them together: seldom what the leg has to pass.
+        worth = most if self.problem.objective == "time" else LONGER * taut.cost
+        router = self._router.up_to(worth) if isinstance(solid, Voxels) else self._router
+        past = seeds(router, solid, *ends, self.problem.required, self._norm, taut)
         ways = [TautWay(seed.side, seed.route.points[1:-1]) for seed in past]
         for seed in past:
             if seed.side != cheapest.side and NEARLY * seed.route.cost <= most:
@@ -148,10 +157,10 @@ class LegRouter:
             NoPathError: There is none, proven.
             GaveUpError: None was found.
         """
-        return self._cheapest(leg, self._in_the_way(laid))
+        return _way_of(self._in_the_way(laid), self._taut(leg))
 
-    def _cheapest(self, leg: int, solid: Solid | None) -> TautWay:
-        """The cheapest way of a leg, named by its side of a solid."""
+    def _taut(self, leg: int) -> TautRoute:
+        """The cheapest way of a leg."""
         first, last = self._ends(leg)
         gates = self.gates(leg)
         outcome = self._router.find(first, last, self.problem.required, self._norm, gates)
@@ -159,15 +168,10 @@ class LegRouter:
             raise self._refused(leg, outcome)
         if isinstance(outcome, SpaceGaveUp):
             raise self._gave_up(leg, outcome)
-        return TautWay(_side_past(solid, outcome.value), outcome.value.points[1:-1])
+        return outcome.value
 
     def _ends(self, leg: int) -> tuple[Floats, Floats]:
         return self.problem.vias[leg].at, self.problem.vias[leg + 1].at
-
-    def _cost(self, leg: int, way: TautWay) -> float:
-        """What a way costs [m or s]."""
-        first, last = self._ends(leg)
-        return float(way_cost(np.array(self._norm), np.array([first, *way.inner, last])))
 
     def _with_room(
         self, leg: int, gates: Floats, side: PassingSide, most: float
@@ -179,7 +183,7 @@ class LegRouter:
         if self.problem.objective == "length":
             return
         first, last = self._ends(leg)
-        kept, quick = self.problem.required, self._router.quick
+        kept, quick = self.problem.required, self._router.quick.up_to(most)
         body = max(kept + float(self.problem.world.packed.core[0]), LEAST_BODY_M)
         for share in ROOM:
             outcome = quick.find(first, last, kept + share * body, self._norm, gates)
@@ -253,6 +257,11 @@ def _different(ways: Sequence[TautWay]) -> Sequence[TautWay]:
         ):
             kept.append(way)
     return kept
+
+
+def _way_of(solid: Solid | None, route: TautRoute) -> TautWay:
+    """A route as the way of a leg, named by its side of a solid."""
+    return TautWay(_side_past(solid, route), route.points[1:-1])
 
 
 def _side_past(solid: Solid | None, route: TautRoute) -> PassingSide:

@@ -18,7 +18,7 @@ from viaspline.errors import GaveUpError, NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError
 from viaspline.space.laying.corner_rounding import straight_span
-from viaspline.space.laying.gentle_turns import GentleTurns
+from viaspline.space.laying.gentle_turns import DEARER, ROUND_DEARER, GentleTurns
 from viaspline.space.laying.laid_route import LaidRoute, RouteLegs
 from viaspline.space.laying.via_directions import via_directions
 from viaspline.space.led_route import RouteLayer
@@ -60,6 +60,7 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
         least_radius(problem), layer.radius, layer.laid_anew, cost_of(problem),
         away_from_things(problem), router.pulled,
         is_rolling=first.dwell is None and first.direction is not None,
+        dearer=DEARER if problem.objective == "length" else ROUND_DEARER,
     )  # fmt: skip
     found = turns.of(found)
     path, airborne = _whole_path(problem, found)

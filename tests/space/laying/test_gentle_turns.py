@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -113,6 +114,15 @@ def test_straight_back_is_a_turn_as_wide_as_the_body_needs() -> None:
 def test_what_is_round_enough_stays_as_it_was() -> None:
     round_enough = spline(np.array([[0.0, 0, 9], [30, 10, 9], [60, 0, 9]]))
     assert turns().of(round_enough) is round_enough
+
+
+def test_a_turn_that_would_cost_more_than_it_may_stays_as_it_was() -> None:
+    sharp = spline(np.array([[0.0, 0, 9], [12, 0, 9], [3, 2, 9]]))
+    least = Path(sharp.laid.spans, []).length
+    bent = turns().of(sharp)
+    assert sharpest(bent) >= LEAST
+    assert 1.02 * least < Path(bent.laid.spans, []).length <= 1.2 * least
+    assert replace(turns(), dearer=1.02).of(sharp) is sharp
 
 
 def test_a_turn_for_which_there_is_no_room_stays_as_it_was() -> None:

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
@@ -12,8 +12,9 @@ from viaspline.maps.voxels import Voxels
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.mission.shapes.solids import Prism, RoundedSegment, Solid
 from viaspline.planning.problem.method import Found, GaveUp, Refusal
-from viaspline.space.routing.pass_gates import PassSide, gate
+from viaspline.space.routing.pass_gates import SIDE_BITS, PassSide, gate
 from viaspline.space.routing.search_room import SearchRoom
+from viaspline.space.routing.shut_sides import is_shut
 from viaspline.space.routing.side_seeds import seeds
 from viaspline.space.routing.space_router import SpaceRouter
 from viaspline.space.routing.taut_route import TautRoute
@@ -170,6 +171,65 @@ def test_a_side_that_there_is_not_has_no_seed() -> None:
     ends = (-30.0, 0.0, 26.0), (30.0, 0.0, 26.0)
     found = seeds(router([solid]), solid, *ends, 1.0)
     assert {seed.side for seed in found} == {"left", "right"}
+
+
+@settings(max_examples=12)
+@example(seed=0)
+@given(st.integers(0, 2**32))
+def test_a_side_that_is_known_to_be_shut_has_no_way_through_the_lattice(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    low = float(rng.choice([0.0, 1.5, 12.0]))
+    x, y = rng.uniform(-25, 25), rng.choice([-1.0, 1.0]) * rng.uniform(0, 42)
+    solid = block(x, y, *rng.uniform(3, 9, 2), low, low + float(rng.choice([20.0, 47.0, 60.0])))
+    flight = router([solid])
+    ends = (-48.0, float(rng.uniform(-40, 40)), 30.0), (48.0, float(rng.uniform(-40, 40)), 30.0)
+    for side in SIDE_BITS:
+        row = gate(solid, *ends, [side])
+        if is_shut(flight.room, solid, row[0], ends, 1.0):
+            assert not isinstance(flight.quick.find(*ends, 1.0, gates=row), Found)
+
+
+def test_what_stands_on_the_ground_or_by_the_bounds_is_known_to_be_shut_there() -> None:
+    ends = (-48.0, 0.0, 30.0), (48.0, 0.0, 30.0)
+
+    def shut(solid: Solid) -> set[str]:
+        room = router([solid]).room
+        rows = {side: gate(solid, *ends, [side])[0] for side in SIDE_BITS}
+        return {side for side, row in rows.items() if is_shut(room, solid, row, ends, 1.0)}
+
+    assert shut(block(0, 0, 5, 5, 0, 40)) == {"under"}
+    assert shut(block(0, 43, 5, 6, 0, 40)) == {"under", "left"}
+    assert shut(block(0, -43, 5, 6, 0, 59.5)) == {"under", "over", "right"}
+    assert shut(block(0, 0, 5, 49.5, 3, 40)) == {"left", "right"}
+    # A ball fills no rectangle, and voxels may be open within.
+    assert shut(RoundedSegment((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 9.0)) == set()
+    assert shut(Voxels(np.ones((2, 2, 2), bool), 20.0, (-20.0, -20.0, 0.0))) == set()
+    # From beside a solid on along it a way needn't pass it at all.
+    solid = block(0, 0, 5, 5, 0, 40)
+    beside = (10.0, -9.0, 30.0), (48.0, 0.0, 30.0)
+    row = gate(solid, *beside, ["under"])[0]
+    assert not is_shut(router([solid]).room, solid, row, beside, 1.0)
+
+
+def test_the_route_that_is_known_is_the_seed_of_its_own_side() -> None:
+    solid = block(0, 1, 4, 6, 20, 30)
+    flight = router([solid])
+    ends = (-30.0, 0.0, 26.0), (30.0, 0.0, 26.0)
+    known = flight.find(*ends, 1.0).value
+    found = seeds(flight, solid, *ends, 1.0, known=known)
+    assert {seed.side for seed in found} == {"left", "right", "over", "under"}
+    assert [seed.side for seed in found if seed.route is known] == [found[0].side]
+
+
+def test_a_router_up_to_a_cost_finds_what_costs_no_more() -> None:
+    solid = block(0, 0, 2, 40, 0, 55)
+    flight = router([solid])
+    ends = (-20.0, 0.0, 5.0), (20.0, 0.0, 5.0)
+    cost = flight.find(*ends, 1.0).cost
+    again = flight.up_to(cost).quick.find(*ends, 1.0)
+    assert isinstance(again, Found)
+    assert again.cost == cost
+    assert isinstance(flight.up_to(0.5 * cost).quick.find(*ends, 1.0), GaveUp)
 
 
 def test_a_way_is_pulled_only_if_it_is_free() -> None:

@@ -49,7 +49,7 @@ DEARER: Final = 1.02
 """So much more a turn may cost that gets gentler, and still isn't round enough."""
 
 ROUND_DEARER: Final = 1.2
-"""So much more one may cost that gets round enough."""
+"""So much more one may cost that gets round enough, where time counts."""
 
 NO_RADIUS_M: Final = 1e-6
 """What is sharper is as good as a corner."""
@@ -99,6 +99,7 @@ class GentleTurns(Generic[Route]):
         away: From what is near.
         pull: Pulls ways taut.
         is_rolling: Whether the robot is under way where the route begins: it can't turn there.
+        dearer: So much more a turn may cost that gets round enough.
     """
 
     least: float
@@ -108,6 +109,7 @@ class GentleTurns(Generic[Route]):
     away: Away
     pull: Pull
     is_rolling: bool = False
+    dearer: float = ROUND_DEARER
 
     def of(self, found: Route) -> Route:
         """A clear route with its sharp turns laid gently, as far as that can be."""
@@ -146,7 +148,7 @@ class GentleTurns(Generic[Route]):
                 its = self._lack(laid)
                 if its > rank[0] or (its, cost := self.cost(laid.laid.spans)) >= rank:
                     continue
-                dearer = ROUND_DEARER if self._is_round(laid, turn) else DEARER
+                dearer = self.dearer if self._is_round(laid, turn) else DEARER
                 if cost <= dearer * most:
                     best, rank = laid, (its, cost)
             if self._is_round(best, turn):

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.space.routing.side_gates import LEFT, OVER, RIGHT, UNDER
 from viaspline.maps.voxels import Voxels
+from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.mission.shapes.solids import Box6, Prism, RoundedSegment, Solid
 
 PassSide: TypeAlias = Literal["left", "right", "over", "under"]
@@ -88,23 +89,42 @@ def _covered(
     if isinstance(solid, RoundedSegment):
         return _covered_by_line(solid, middle, ahead)
     if isinstance(solid, Prism):
-        import shapely
-
-        left = np.array([-ahead[1], ahead[0]])
-        box = solid.box
-        reach = math.hypot(box[3] - box[0], box[4] - box[1])
         if solid.ring.is_disc:
             return -solid.ring.radius, solid.ring.radius, *heights
-        line = shapely.LineString([middle - reach * left, middle + reach * left])
-        section = shapely.get_coordinates(solid.ring.outline().intersection(line))
+        section = section_of(solid.ring, middle, ahead)
         if not len(section):  # a hole in the middle of a bent shape
-            section = shapely.get_coordinates(solid.ring.outline())
-        along = (section - middle) @ left
+            import shapely
+
+            section = shapely.get_coordinates(solid.ring.outline()) - middle
+        along = section @ np.array([-ahead[1], ahead[0]])
         return float(along.min()), float(along.max()), *heights
     box = _box(solid)
     corners = np.array([(x, y) for x in box[::3] for y in box[1::3]])
     along = (corners - middle) @ np.array([-ahead[1], ahead[0]])
     return float(along.min()), float(along.max()), *heights
+
+
+def section_of(
+    ring: RoundedRing, middle: tuple[float, float], ahead: tuple[float, float]
+) -> Floats:
+    """Where the outline of a ring crosses a line in plan.
+
+    Args:
+        ring: It.
+        middle: A place of the line [m].
+        ahead: The direction across the line, a unit vector.
+
+    Returns:
+        Ends of the parts of the line that the ring covers, from the middle [m], shape (k, 2).
+    """
+    import shapely
+
+    left = np.array([-ahead[1], ahead[0]])
+    x0, y0, x1, y1 = ring.box
+    reach = math.hypot(x1 - x0, y1 - y0)
+    line = shapely.LineString([middle - reach * left, middle + reach * left])
+    crossed = shapely.get_coordinates(ring.outline().intersection(line))
+    return np.asarray(crossed - middle)
 
 
 def _covered_by_line(

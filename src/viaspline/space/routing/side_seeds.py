@@ -14,9 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.space.routing.way_checks import way_is_free
 from viaspline.mission.shapes.solids import Solid
 from viaspline.planning.problem.method import Found
 from viaspline.space.routing.pass_gates import SIDE_BITS, PassSide, gate
+from viaspline.space.routing.shut_sides import is_shut
 from viaspline.space.routing.space_router import SpaceRouter
 from viaspline.space.routing.taut_route import LENGTH, Norm, TautRoute
 
@@ -43,6 +45,7 @@ def seeds(
     goal: ArrayLike,
     required: float,
     norm: Norm = LENGTH,
+    known: TautRoute | None = None,
 ) -> tuple[SideSeed, ...]:
     """Routes on the sides of a solid that there are, the cheapest first.
 
@@ -53,6 +56,7 @@ def seeds(
         goal: [m], (3,).
         required: Distance to be kept from everything [m].
         norm: See ``SpaceRouter.find``.
+        known: The cheapest route of all, if that is known: it isn't sought again on its own side.
 
     Raises:
         GeometryError: See ``SpaceRouter.find``.
@@ -62,7 +66,10 @@ def seeds(
     apart = 2.0 * (required + router.room.body)
     for side in SIDE_BITS:
         row = gate(obstacle, start, goal, [side])
-        if not len(row):
+        if not len(row) or is_shut(router.room, obstacle, row[0], (start, goal), required):
+            continue
+        if known is not None and way_is_free(router.room.packed, row, known.points, required):
+            found.append(SideSeed(side, known))
             continue
         outcome = quick.find(start, goal, required, norm, row)
         if isinstance(outcome, Found):

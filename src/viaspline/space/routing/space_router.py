@@ -41,6 +41,7 @@ _HAIR = 1e-3  # of the body's size: what is kept beyond the clearance, so that r
 _REACH = 0.05  # of the body's size: what is no further beyond that counts as touched
 _LEAST_SIZE_M = 1e-3
 _CHEAPER = 10  # places among voxels alone for one among solids
+_COARSE = 1.1  # times what a taut way may cost: a way through a lattice that becomes it
 _WORTH = 1.01  # times the best so far: what a way may cost before it is pulled taut
 
 
@@ -77,6 +78,7 @@ class SpaceRouter:
         most_nodes: Places of each lattice that are looked at; ten times as many among voxels.
         most_cells: Cells that are looked at for a proof.
         halvings: How often a lattice is halved.
+        most_cost: A route that costs more needn't be found [m or s].
     """
 
     room: SearchRoom
@@ -88,11 +90,16 @@ class SpaceRouter:
     most_nodes: int = 100_000
     most_cells: int = 400_000
     halvings: int = 2
+    most_cost: float = math.inf
 
     @property
     def quick(self) -> SpaceRouter:
         """This one for ways that needn't be there: on one lattice, and without a proof."""
         return replace(self, halvings=0, most_cells=0)
+
+    def up_to(self, cost: float) -> SpaceRouter:
+        """This one for ways that cost so much at most [m or s]: searches end where others begin."""
+        return replace(self, most_cost=cost)
 
     def find(
         self,
@@ -175,7 +182,7 @@ class SpaceRouter:
         """A way through the lattice, searched from the start."""
         way: Floats = lattice_way(
             self.room.packed, query.gates, query.norm, lattice, query.ends[0], query.ends[1],
-            query.radius, self._weight, self._most_nodes,
+            query.radius, self._weight, _COARSE * self.most_cost, self._most_nodes,
         )[0]  # fmt: skip
         return way
 
@@ -183,7 +190,7 @@ class SpaceRouter:
         """One that is searched from the goal, where climbing is sinking."""
         way: Floats = lattice_way(
             self.room.packed, query.gates, query.norm[[0, 2, 1]], lattice, query.ends[1],
-            query.ends[0], query.radius, self._weight, self._most_nodes,
+            query.ends[0], query.radius, self._weight, _COARSE * self.most_cost, self._most_nodes,
         )[0]  # fmt: skip
         return way[::-1].copy()
 
@@ -201,7 +208,7 @@ class SpaceRouter:
         packed = self.room.packed
         if not isinstance(packed, PackedSpace):
             return np.empty((0, 3))
-        bound = math.inf if best is None else _WORTH * best.cost
+        bound = _WORTH * (self.most_cost if best is None else min(best.cost, self.most_cost))
         way: Floats = contact_way(
             packed, query.gates, query.norm, query.ends[0], query.ends[1], query.radius,
             bound, self.most_places, self.most_lines,

@@ -1,5 +1,7 @@
 """Ways through lattices of cubes, against Dijkstra on 26 neighbours and floods."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -32,7 +34,9 @@ def find(
     blocked: Flags, first: Floats, last: Floats, weight: float = 1.1, gates: Floats = NO_GATES
 ) -> Floats:
     block, lattice = block_of(blocked)
-    way: Floats = lattice_way(block, gates, LENGTH, lattice, first, last, RADIUS, weight, 10**6)[0]
+    way: Floats = lattice_way(
+        block, gates, LENGTH, lattice, first, last, RADIUS, weight, math.inf, 10**6
+    )[0]
     return way
 
 
@@ -105,10 +109,27 @@ def test_a_search_ends_when_its_nodes_are_spent() -> None:
     blocked[6, :, :11] = True
     block, lattice = block_of(blocked)
     ends = np.array([1.5, 6.5, 1.5]), np.array([10.5, 6.5, 1.5])
-    asked = block, NO_GATES, LENGTH, lattice, *ends, RADIUS, 1.1
+    asked = block, NO_GATES, LENGTH, lattice, *ends, RADIUS, 1.1, math.inf
     way, expanded = lattice_way(*asked, 10)
     assert (len(way), expanded) == (0, 10)
     assert len(lattice_way(*asked, 10**6)[0])
+
+
+@settings(max_examples=50)
+@given(problems(), st.floats(0.5, 1.5))
+def test_a_way_that_costs_no_more_than_the_bound_is_found_with_it(
+    problem: tuple[Flags, Floats, Floats], share: float
+) -> None:
+    blocked, first, last = problem
+    block, lattice = block_of(blocked)
+    asked = block, NO_GATES, LENGTH, lattice, first, last, RADIUS, 1.1
+    way = lattice_way(*asked, math.inf, 10**6)[0]
+    bound = share * float(way_cost(LENGTH, way)) + 1e-9
+    bounded = lattice_way(*asked, bound, 10**6)[0]
+    if len(bounded):
+        assert way_cost(LENGTH, bounded) <= bound
+    else:
+        assert share < 1.0 or not len(way)
 
 
 def test_a_ball_larger_than_half_a_cube_keeps_to_wider_gaps() -> None:
@@ -119,7 +140,7 @@ def test_a_ball_larger_than_half_a_cube_keeps_to_wider_gaps() -> None:
     block = voxel_block(blocked, 1.0, (0, 0, 0), np.array([0.9] * 3 + [8.1] * 3))
     lattice = PlaceLattice(np.array([1.5, 1.5, 1.5, 1.0]), np.array([7, 7, 7]))
     ends = np.array([1.5, 1.5, 1.5]), np.array([7.5, 1.5, 1.5])
-    way = lattice_way(block, NO_GATES, LENGTH, lattice, *ends, 0.9, 1.1, 10**6)[0]
+    way = lattice_way(block, NO_GATES, LENGTH, lattice, *ends, 0.9, 1.1, math.inf, 10**6)[0]
     assert len(way) > 2
     assert way_is_free(block, NO_GATES, way, 0.9)
     assert way[:, 1:].max() > 5.0

@@ -46,7 +46,7 @@ def test_a_pulled_way_is_free_and_costs_no_more(seed: int, timed: bool) -> None:
     block, lattice = block_of(blocked)
     first, last = ends + 0.5
     norm = np.array([2.0, 0.7, 0.4]) if timed else LENGTH
-    way = lattice_way(block, NO_GATES, norm, lattice, first, last, RADIUS, 1.1, 10**6)[0]
+    way = lattice_way(block, NO_GATES, norm, lattice, first, last, RADIUS, 1.1, math.inf, 10**6)[0]
     if len(way):
         taut = pull(block, way, 1e-3, norm)
         assert way_is_free(block, NO_GATES, taut, RADIUS)
@@ -109,7 +109,9 @@ def test_a_fast_way_climbs_no_more_than_time_allows() -> None:
     block, lattice = block_of(blocked)
     first, last = np.array([10.5, 15.5, 1.5]), np.array([20.5, 15.5, 1.5])
     for norm, climbs in ((LENGTH, True), (np.array([10.0, 1.0, 1.0]), False)):
-        way = lattice_way(block, NO_GATES, norm, lattice, first, last, RADIUS, 1.0, 10**6)[0]
+        way = lattice_way(
+            block, NO_GATES, norm, lattice, first, last, RADIUS, 1.0, math.inf, 10**6
+        )[0]
         taut = pull(block, way, 1e-3, norm)
         assert (taut[:, 2].max() > 8.0) == climbs
 
@@ -126,7 +128,17 @@ def test_pulling_twice_gives_the_same_bytes() -> None:
     blocked = rng.random((20, 20, 20)) < 0.15
     blocked[0, 0, 0] = blocked[19, 19, 19] = False
     block, lattice = block_of(blocked)
-    asked = block, NO_GATES, LENGTH, lattice, np.full(3, 0.5), np.full(3, 19.5), RADIUS, 1.1
+    asked = (
+        block,
+        NO_GATES,
+        LENGTH,
+        lattice,
+        np.full(3, 0.5),
+        np.full(3, 19.5),
+        RADIUS,
+        1.1,
+        math.inf,
+    )
     ways = [pull(block, lattice_way(*asked, 10**6)[0]) for _ in range(2)]
     assert len(ways[0]) > 2
     assert ways[0].tobytes() == ways[1].tobytes()

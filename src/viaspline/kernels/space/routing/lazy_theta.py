@@ -65,15 +65,18 @@ def _line_is_free(space: Any, gates: Floats, places: Floats, i: int, j: int, rad
 
 
 @inlined
-def _reach(nodes: LatticeNodes, norm: Floats, weight: float, node: int, parent: int) -> None:
-    """Let a node be reached from a parent, if that is cheaper."""
+def _reach(
+    nodes: LatticeNodes, norm: Floats, weight: float, bound: float, node: int, parent: int
+) -> None:
+    """Let a node be reached from a parent, if that is cheaper, and not too dear."""
     places = nodes.places
     cost = places[parent, COST] + travel_between(norm, places, parent, node)
     if cost < places[node, COST]:
-        places[node, COST] = cost
-        nodes.links[node, PARENT] = parent
         ahead = travel_between(norm, places, node, _GOAL)
-        push(nodes.open, cost + weight * ahead, node)
+        if cost + ahead <= bound:
+            places[node, COST] = cost
+            nodes.links[node, PARENT] = parent
+            push(nodes.open, cost + weight * ahead, node)
 
 
 @inlined
@@ -107,6 +110,7 @@ def _begin(
     goal: Floats,
     radius: float,
     weight: float,
+    bound: float,
 ) -> LatticeNodes:
     """A search that knows the places of the lattice about its start."""
     nodes = no_nodes(_FIRST_ROOM)
@@ -116,7 +120,7 @@ def _begin(
     nodes.links[_START, PARENT] = _START
     nodes.links[_START, STATE] = SETTLED
     if _line_is_free(space, gates, nodes.places, _START, _GOAL, radius):
-        _reach(nodes, norm, weight, _GOAL, _START)
+        _reach(nodes, norm, weight, bound, _GOAL, _START)
         return nodes
     for move in range(27):
         i = _nearest_row(lattice, 0, start[0]) + move // 9 - 1
@@ -125,7 +129,7 @@ def _begin(
         if is_place(lattice, i, j, k):
             node = _new_node(space, nodes, lattice, i, j, k, radius)
             if _line_is_free(space, gates, nodes.places, _START, node, radius):
-                _reach(nodes, norm, weight, node, _START)
+                _reach(nodes, norm, weight, bound, node, _START)
     return nodes
 
 
@@ -181,6 +185,7 @@ def _spread(
     moves: int,
     radius: float,
     weight: float,
+    bound: float,
 ) -> None:
     """Let the neighbours of a node be reached from its parent."""
     key = nodes.links[here, KEY]
@@ -197,7 +202,7 @@ def _spread(
             if other < 0:
                 other = _new_node(space, nodes, lattice, x, y, z, radius)
             if nodes.links[other, STATE] == OPEN:
-                _reach(nodes, norm, weight, other, parent)
+                _reach(nodes, norm, weight, bound, other, parent)
 
 
 @inner
@@ -244,6 +249,7 @@ def lattice_way(
     goal: Floats,
     radius: float,
     weight: float,
+    bound: float,
     most: int,
 ) -> tuple[Floats, int]:
     """A way between two places, through places of a lattice.
@@ -257,13 +263,14 @@ def lattice_way(
         goal: [m], (3,).
         radius: To be kept from everything [m].
         weight: Of the estimate, from 1 on.
+        bound: Only a way that costs no more is of interest [m or s].
         most: Nodes to expand.
 
     Returns:
         (corners (k, 3), nodes expanded): no corners where there is no way through the lattice, or
         none was found with the nodes that may be expanded.
     """
-    nodes = _begin(space, gates, norm, lattice, start, goal, radius, weight)
+    nodes = _begin(space, gates, norm, lattice, start, goal, radius, weight, bound)
     expanded = 0
     while nodes.open.size[0] > 0 and expanded < most:
         here = pop(nodes.open)
@@ -288,7 +295,7 @@ def lattice_way(
         ):
             continue
         nodes.links[here, STATE] = SETTLED
-        _spread(space, nodes, norm, lattice, here, moves, radius, weight)
+        _spread(space, nodes, norm, lattice, here, moves, radius, weight, bound)
         if _sees_goal(space, gates, nodes, lattice, here, radius):
-            _reach(nodes, norm, weight, _GOAL, here)
+            _reach(nodes, norm, weight, bound, _GOAL, here)
     return new_floats(0, 3), expanded
