@@ -129,7 +129,9 @@ class LegRouter:
         ends = self._ends(leg)
         # Sides of voxels are those of all of them together: seldom what the leg has to pass.
         worth = most if self.problem.objective == "time" else LONGER * taut.cost
-        router = self._router.up_to(worth) if isinstance(solid, Voxels) else self._router
+        router = self._router.best_up_to(most)
+        if isinstance(solid, Voxels):
+            router = router.up_to(worth)
         past = seeds(router, solid, *ends, self.problem.required, self._norm, taut)
         ways = [TautWay(seed.side, seed.route.points[1:-1]) for seed in past]
         for seed in past:

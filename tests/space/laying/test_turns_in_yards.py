@@ -35,7 +35,7 @@ def yard(seed: int) -> Mission:
 
 
 @pytest.mark.parametrize(
-    "seed", [6, 48, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (18, 22, 40))]
+    "seed", [6, 18, 48, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (22, 40))]
 )
 def test_where_there_is_room_no_turn_is_sharper_than_the_body(seed: int) -> None:
     plan = vs.plan(yard(seed))

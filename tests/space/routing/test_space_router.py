@@ -232,6 +232,22 @@ def test_a_router_up_to_a_cost_finds_what_costs_no_more() -> None:
     assert isinstance(flight.up_to(0.5 * cost).quick.find(*ends, 1.0), GaveUp)
 
 
+@settings(max_examples=10)
+@given(st.integers(0, 2**32))
+def test_what_is_only_told_of_is_found_too_and_costs_no_less(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    solids = town(rng)
+    flight = router(solids)
+    ends = rng.uniform((-49, -49, 2), (-40, 49, 59)), rng.uniform((40, -49, 2), (49, 49, 59))
+    best, told = flight.find(*ends, 0.5), flight.best_up_to(0.0).find(*ends, 0.5)
+    assert type(told) is type(best)
+    if isinstance(best, Found):
+        assert told.cost >= best.cost
+        assert clearance_by_samples(SpatialWorld.of(solids, ground=0.0), told.value) >= 0.5 - 1e-6
+    same = flight.best_up_to(1e9).find(*ends, 0.5)
+    assert not isinstance(best, Found) or same.value.points.tobytes() == best.value.points.tobytes()
+
+
 def test_a_way_is_pulled_only_if_it_is_free() -> None:
     flight = router([block(0, 0, 2, 20, 0, 12)])
     way = np.array([[-20.0, 0.0, 2.0], [0.0, 0.0, 30.0], [20.0, 0.0, 2.0]])

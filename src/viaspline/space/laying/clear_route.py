@@ -110,8 +110,8 @@ def _tightened(legs: RouteLegs, leg: int, ways: Floats, check: Check) -> RouteLe
 def tightened_leg(polygon: LegPolygon, leg: int, check: Check) -> LegPolygon:
     """A leg with its corners as tight as has to be, and no tighter than that asks for.
 
-    Both corners beside a place that fails are tightened, for either may be why; then each of them
-    is widened again as far as the leg still passes.
+    Both corners beside a place that fails are tightened, for either may be why, by twice as many
+    steps each time; then each of them is widened again as far as the leg still passes.
 
     Args:
         polygon: The leg.
@@ -122,12 +122,13 @@ def tightened_leg(polygon: LegPolygon, leg: int, check: Check) -> LegPolygon:
         StuckLegError: When it doesn't, however tight its corners are.
     """
     found = polygon
-    times = np.zeros(len(polygon.radii))
+    times, steps = np.zeros(len(polygon.radii)), np.ones(len(polygon.radii))
     while (place := check(leg, found.curve())) is not None:
         corners = _corners_about(found, place)
         if not corners:
             raise StuckLegError(leg, place)
-        times[corners] += 1
+        times[corners] += steps[corners]
+        steps[corners] *= 2.0
         found = _tightened_by(polygon, times)
     return _widened(polygon, times, leg, check) if times.any() else found
 

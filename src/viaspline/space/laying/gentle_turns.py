@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final, Generic, NamedTuple, TypeVar
 
 import numpy as np
@@ -177,6 +177,7 @@ class GentleTurns(Generic[Route]):
             middle = across_turn(beside(legs, via, -1), beside(legs, via, 1))
             yield self._through(legs, via, (middle, own))
             yield self._through(legs, via, other_ways(legs, via, own, self.away(legs.vias[via])))
+            yield self._with_one_close_leg(legs, via, (middle, own))
         elif not self.is_rolling or via > 0:
             yield self._from_end(legs, turn)
 
@@ -196,12 +197,21 @@ class GentleTurns(Generic[Route]):
         """Ways to turn at a via point that has no direction, through it along one of these."""
         wanted = ROOMY * self.least
         for way in ways:
-            given = legs.given.copy()
-            given[via] = way
-            through = replace(legs, given=given)
+            through = legs.through(via, way)
             for radius, rest in self._radii(wanted, self.radius):
                 before = self._turning(through, via - 1, via, radius, rest)
                 yield self._turning(before, via, via, radius, rest)
+
+    def _with_one_close_leg(
+        self, legs: RouteLegs, via: int, ways: Iterable[Floats]
+    ) -> Iterator[RouteLegs]:
+        """Ways to turn at a via point with close corners on one leg beside it, wide on one."""
+        wanted = ROOMY * self.least
+        for way in ways:
+            through = legs.through(via, way)
+            for before, after in ((wanted, self.radius), (self.radius, wanted)):
+                begun = self._turning(through, via - 1, via, wanted, before)
+                yield self._turning(begun, via, via, wanted, after)
 
     def _radii(self, *of_turn: float) -> Iterator[tuple[float, float | None]]:
         """Radii of a turn and of other corners; see ``_turning``."""

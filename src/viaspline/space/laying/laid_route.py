@@ -68,6 +68,12 @@ class RouteLegs:
         """
         return self.with_polygon(leg, inner, np.full(len(inner) + 2, radius))
 
+    def through(self, via: int, way: Floats) -> RouteLegs:
+        """This route with a direction at one via point, a unit vector, (d,)."""
+        given = self.given.copy()
+        given[via] = way
+        return replace(self, given=given)
+
     def with_polygon(self, leg: int, inner: Floats, radii: Floats) -> RouteLegs:
         """This route with one leg that isn't the spline.
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viaspline.errors import GeometryError
-from viaspline.handed_in import number_from, numbers_from
+from viaspline.handed_in import numbers_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.space.packed_space import PackedSpace
 from viaspline.kernels.space.routing.contact_graph import contact_way
@@ -27,6 +27,12 @@ from viaspline.kernels.space.routing.way_checks import way_cost, way_is_free
 from viaspline.kernels.space.space_distance import space_distances
 from viaspline.planning.problem.method import Found
 from viaspline.space.routing.pass_gates import NO_GATES
+from viaspline.space.routing.route_query import (
+    RouteQuery,
+    checked_ends,
+    checked_norm,
+    checked_required,
+)
 from viaspline.space.routing.search_room import SearchRoom
 from viaspline.space.routing.taut_route import (
     LENGTH,
@@ -45,25 +51,6 @@ _COARSE = 1.1  # times what a taut way may cost: a way through a lattice that be
 _WORTH = 1.01  # times the best so far: what a way may cost before it is pulled taut
 
 
-@dataclass(frozen=True, eq=False)
-class RouteQuery:
-    """What is asked of a search.
-
-    Attributes:
-        ends: Start and goal [m], (2, 3).
-        radius: To be kept from everything [m].
-        norm: See ``kernels.space.routing.travel_norm``, (3,).
-        gates: See ``pass_gates``, (g, 8).
-        margin: How far beyond all solids a route may go [m].
-    """
-
-    ends: Floats
-    radius: float
-    norm: Floats
-    gates: Floats
-    margin: float
-
-
 @dataclass(frozen=True)
 class SpaceRouter:
     """Finds routes in a room.
@@ -79,6 +66,7 @@ class SpaceRouter:
         most_cells: Cells that are looked at for a proof.
         halvings: How often a lattice is halved.
         most_cost: A route that costs more needn't be found [m or s].
+        worth: A route that costs more needn't be the cheapest of its kind [m or s].
     """
 
     room: SearchRoom
@@ -91,11 +79,16 @@ class SpaceRouter:
     most_cells: int = 400_000
     halvings: int = 2
     most_cost: float = math.inf
+    worth: float = math.inf
 
     @property
     def quick(self) -> SpaceRouter:
         """This one for ways that needn't be there: on one lattice, and without a proof."""
         return replace(self, halvings=0, most_cells=0)
+
+    def best_up_to(self, cost: float) -> SpaceRouter:
+        """This one for ways of which those that cost more [m or s] are only to be told of."""
+        return replace(self, worth=cost)
 
     def up_to(self, cost: float) -> SpaceRouter:
         """This one for ways that cost so much at most [m or s]: searches end where others begin."""
@@ -124,9 +117,9 @@ class SpaceRouter:
         Raises:
             GeometryError: For something else than that.
         """
-        ends = _checked_ends(start, goal)
-        radius = _checked_required(required)
-        speeds = _checked_norm(norm)
+        ends = checked_ends(start, goal)
+        radius = checked_required(required)
+        speeds = checked_norm(norm)
         for side in range(2):
             if refusal := self._refused_end(ends, side, radius):
                 return refusal
@@ -162,10 +155,10 @@ class SpaceRouter:
             GeometryError: The way isn't free.
         """
         points = np.array(numbers_from("way", way))
-        radius = _checked_required(required)
+        radius = checked_required(required)
         if not way_is_free(self.room.packed, gates, points, radius):
             raise GeometryError("the way isn't free at that distance; give one that is")
-        return self._pulled(points, radius, _checked_norm(norm), gates)
+        return self._pulled(points, radius, checked_norm(norm), gates)
 
     def _by_lattice(self, query: RouteQuery, lattice: PlaceLattice) -> TautRoute | None:
         """The better of two routes through the lattice, searched there and back.
@@ -174,7 +167,9 @@ class SpaceRouter:
         """
         there = self._there(query, lattice)
         best = self._better(query, there, None)
-        if best is None or not isinstance(self.room.packed, PackedSpace):
+        if best is None or best.cost > self.worth:
+            return best
+        if not isinstance(self.room.packed, PackedSpace):
             return best
         return self._better(query, self._back(query, lattice), best)
 
@@ -278,27 +273,3 @@ class SpaceRouter:
             reason=f"no route was found at a resolution of {resolution:.3g} m",
             resolution=resolution,
         )
-
-
-def _checked_ends(start: ArrayLike, goal: ArrayLike) -> Floats:
-    rows = [numbers_from("start", start), numbers_from("goal", goal)]
-    for name, row in zip(("start", "goal"), rows, strict=True):
-        if row.shape != (3,) or not np.isfinite(row).all():
-            raise GeometryError(f"the {name} is {row}; give x, y, z [m]")
-    return np.array(rows)
-
-
-def _checked_required(required: float) -> float:
-    number = number_from("required", required)
-    if not 0.0 <= number < math.inf:
-        raise GeometryError(f"required is {required}; give 0 m or more")
-    return number
-
-
-def _checked_norm(norm: Norm) -> Floats:
-    speeds = numbers_from("norm", norm)
-    if speeds.shape != (3,) or not (
-        (np.isfinite(speeds).all() and (speeds > 0.0).all()) or (speeds == 0.0).all()
-    ):
-        raise GeometryError(f"norm is {norm}; give three speeds above 0 m/s, or LENGTH")
-    return np.array(speeds)
