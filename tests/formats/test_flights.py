@@ -304,3 +304,45 @@ def test_what_files_of_way_points_cannot_say_of_a_flight_is_named() -> None:
         "capsule in space: world.known[1]",
         "height_m: world.known[2]",
     }
+
+
+@pytest.mark.parametrize("frame", [0, 3, 5, 6, 10])
+def test_an_altitude_reckoned_above_terrain_is_one_above_the_sea_in_every_frame(
+    tmp_path: Path, frame: int
+) -> None:
+    reckoned = over_terrain(NORTH, 20, 425) | {"frame": frame}
+    mission = quietly(plan(tmp_path, item(HERE[0], 3, 10), reckoned, item(47.002, 3, 10)))
+    assert mission.route.via[0].at[2] == 25.0  # it was 425 m above home in frame 3
+    above = quietly(tmp_path / "x.plan", ground={"flat_m": 405})
+    assert above.route.via[0].agl_m == 20.0
+
+
+@pytest.mark.parametrize(("frame", "mode"), [(3, 2), (0, 1), (10, 1), (3, 4), (10, 2), (5, 4)])
+def test_an_altitude_mode_that_is_not_that_of_its_frame_is_told(
+    tmp_path: Path, frame: int, mode: int
+) -> None:
+    odd = item(NORTH, frame, 420, AltitudeMode=mode)
+    with pytest.warns(MissionWarning) as told:
+        load(plan(tmp_path, item(HERE[0], 3, 10), odd, item(47.002, 3, 10)))
+    said = [str(one.message) for one in told]
+    assert any("items[1]" in one and f"frame {frame}, which counts" in one for one in said)
+
+
+@pytest.mark.parametrize(("frame", "mode"), [(3, 1), (6, 1), (0, 2), (10, 4), (3, 0), (0, 0)])
+def test_an_altitude_mode_of_its_frame_is_nothing_to_tell_of(
+    tmp_path: Path, frame: int, mode: int
+) -> None:
+    usual = item(NORTH, frame, 420, AltitudeMode=mode)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        load(plan(tmp_path, item(HERE[0], 3, 10), usual, item(47.002, 3, 10)))
+    assert not any("which counts" in str(one.message) for one in told)
+
+
+def test_heights_that_are_left_out_for_one_that_is_missing_are_told(tmp_path: Path) -> None:
+    heights = (item(HERE[0], 3, 10), item(NORTH, 3, None), item(47.002, 3, 10))
+    with pytest.warns(MissionWarning) as told:
+        mission = load(plan(tmp_path, *heights))
+    assert any("items[1]: no altitude" in str(one.message) for one in told)
+    assert isinstance(mission, Mission)
+    assert {len(point.at) for point in (mission.route.start, *mission.route.via)} == {2}

@@ -75,3 +75,56 @@ def test_what_was_written_is_read(seed: int, tmp_path_factory: pytest.TempPathFa
 def test_what_is_wrong_is_told_with_its_line(text: str, words: str, tmp_path: Path) -> None:
     with pytest.raises(MissionError, match=words):
         read_esri_ascii(written(tmp_path, text))
+
+
+DEGREES = (
+    "ncols 2\nnrows 2\nxllcorner 8.2\nyllcorner 47.1\ncellsize 0.000833333\n400 401\n402 403\n"
+)
+
+
+def test_a_grid_that_lies_and_is_spaced_as_degrees_are_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(MissionError, match="seems to be in degrees; project it to metres"):
+        read_esri_ascii(written(tmp_path, DEGREES))
+    fine = read_esri_ascii(written(tmp_path, DEGREES.replace("47.1", "5200000")))
+    assert fine.cell == 0.000833333
+
+
+@pytest.mark.parametrize(
+    ("prj", "unit"),
+    [
+        (
+            'GEOGCS["WGS 84",DATUM["D",SPHEROID["S",6378137,298.25]],UNIT["degree",0.0174]]',
+            "degrees",
+        ),
+        ("Projection    GEOGRAPHIC\nUnits         DD\nZunits        NO\n", "degrees"),
+        ('PROJCS["x",GEOGCS["y",UNIT["degree",0.0174]],UNIT["Foot_US",0.304800609]]', "Foot_US"),
+        ("Projection    STATEPLANE\nUnits    FEET\n", "feet"),
+    ],
+)
+def test_what_the_prj_file_beside_says_is_believed(tmp_path: Path, prj: str, unit: str) -> None:
+    file = written(tmp_path, GOOD + "1 2 3\n4 5 6\n")
+    file.with_suffix(".prj").write_text(prj)
+    with pytest.raises(MissionError, match=f"says that it is in {unit}"):
+        read_esri_ascii(file)
+
+
+@pytest.mark.parametrize(
+    "prj",
+    [
+        'PROJCS["WGS 84 / UTM 32N",GEOGCS["y",UNIT["degree",0.0174]],UNIT["metre",1]]',
+        "Projection    UTM\nUnits         METERS\n",
+        "nothing that is known",
+        "",
+    ],
+)
+def test_a_prj_file_of_metres_changes_nothing(tmp_path: Path, prj: str) -> None:
+    file = written(tmp_path, GOOD + "1 2 3\n4 5 6\n")
+    alone = read_esri_ascii(file)
+    file.with_suffix(".prj").write_text(prj)
+    assert read_esri_ascii(file) == alone
+
+
+def test_a_broken_unit_of_a_prj_file_is_no_unit(tmp_path: Path) -> None:
+    file = written(tmp_path, GOOD + "1 2 3\n4 5 6\n")
+    file.with_suffix(".prj").write_text('PROJCS["x",UNIT["metre",1e]]')
+    assert read_esri_ascii(file).cell == 2.0

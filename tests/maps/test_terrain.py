@@ -30,6 +30,13 @@ def test_nothing_is_known_of_a_patch_with_a_hole_in_it() -> None:
     assert (terrain.lowest, terrain.highest) == (0.0, 0.0)
 
 
+def test_nothing_is_known_of_heights_that_are_masked() -> None:
+    heights = np.ma.masked_equal(np.array([[0, 1, -9999], [2, 3, 4]], np.int16), -9999)
+    terrain = Terrain(heights, 1.0)
+    assert terrain == Terrain([[0, 1, np.nan], [2, 3, 4]], 1.0)
+    assert terrain.lowest == 0.0
+
+
 def test_terrains_are_equal_when_the_ground_is() -> None:
     one = Terrain([[0, 1], [2, 3]], 1.0, source="dem.asc")
     assert one == copy.deepcopy(one) == Terrain(np.array([[0, 1], [2, 3]], np.float32), 1.0)
@@ -46,6 +53,13 @@ def test_terrains_are_equal_when_the_ground_is() -> None:
         ([[1, np.inf], [1, 1]], 1.0, (0, 0), "finite"),
         ([[1, 1], [1, 1]], -1.0, (0, 0), "cell"),
         ([[1, 1], [1, 1]], 1.0, (0, np.nan), "origin"),
+        ([[1, 1], [1, 1]], 1.0, (1e10, 0), "within 1e"),
+        ([[1, 1], [1, 1]], 1e308, (0, 0), "within 1e"),
+        ([[1, 1], [1, 1]], 1e-9, (0, 0), "or more"),
+        ([[1, 1], [1, -3.4e38]], 1.0, (0, 0), "from 0, or NaN"),
+        (np.ones((2, 2), complex), 1.0, (0, 0), "type complex"),
+        (np.array([["1", "2"], ["3", "4"]]), 1.0, (0, 0), "type <U1"),
+        (np.broadcast_to(0.0, (30_000, 30_000)), 1.0, (0, 0), "too many"),
     ],
 )
 def test_heights_that_make_no_ground_are_refused(

@@ -41,6 +41,18 @@ def test_the_array_of_voxels_can_be_written_to_without_changing_them() -> None:
         (np.zeros((1, 1, 1)), np.nan, (0, 0, 0), "cell"),
         (np.zeros((1, 1, 1)), 1.0, (0, 0), "origin"),
         (np.zeros((1, 1, 1)), 1.0, (0, 0, np.inf), "origin"),
+        (np.zeros((1, 1, 1)), 1.0, (0, -1e10, 0), "within 1e"),
+        (np.zeros((3, 1, 1)), 1e308, (0, 0, 0), "within 1e"),
+        (np.zeros((1, 1, 1)), 1e-320, (0, 0, 0), "or more"),
+        (np.broadcast_to(False, (4000, 4000, 4000)), 1.0, (0, 0, 0), "too many"),
+        (np.full((1, 1, 1), np.nan), 1.0, (0, 0, 0), "nan, neither 0 nor 1"),
+        (np.full((1, 1, 1), 0.3), 1.0, (0, 0, 0), "occupancy > 0.5"),
+        (np.full((1, 1, 1), -1), 1.0, (0, 0, 0), "neither 0 nor 1"),
+        (np.full((1, 1, 1), None), 1.0, (0, 0, 0), "type object"),
+        (np.full((1, 1, 1), "False"), 1.0, (0, 0, 0), "type <U5"),
+        (np.zeros((1, 1, 1), complex), 1.0, (0, 0, 0), "type complex"),
+        (np.ma.masked_array([[[False]]], True), 1.0, (0, 0, 0), "masked"),
+        ([[[1]], [[1, 0]]], 1.0, (0, 0, 0), "no array"),
     ],
 )
 def test_voxels_that_make_no_space_are_refused(

@@ -60,7 +60,8 @@ def mission_of(itinerary: Itinerary) -> Mission:
         _warn(itinerary.source, (*itinerary.notes, *not_flown(notes), *loose))
         return _in_space(itinerary, frame, stops, areas)
     stops, climbs = _merged(stops, _local(frame, stops))
-    _warn(itinerary.source, (*itinerary.notes, *notes, *loose, *climbs))
+    unknown = () if itinerary.is_flat else _without_height(stops)
+    _warn(itinerary.source, (*itinerary.notes, *notes, *loose, *climbs, *unknown))
     if len(stops) < 2:
         problem = "all items are at one place: a way needs two distinct points"
         problem += _aside(itinerary.notes)
@@ -190,6 +191,18 @@ def _merged(
         merged[-1] = replace(last, height=height, dwell=last.dwell + stop.dwell)
     notes = (("climb or descent on the spot", ", ".join(climbs)),) if climbs else ()
     return tuple(merged), notes
+
+
+def _without_height(stops: Sequence[Stop]) -> tuple[tuple[str, str], ...]:
+    """That heights are left out because some stops say none of any kind."""
+    lacking = [
+        stop.place.key
+        for stop in stops
+        if math.isnan(stop.height) and math.isnan(stop.over_terrain)
+    ]
+    if not lacking or len(lacking) == len(stops):
+        return ()
+    return (("no altitude, or none that is a number: heights are left out", ", ".join(lacking)),)
 
 
 def _route(stops: Sequence[Stop], local: Floats, *, is_flat: bool) -> dict[str, Any]:

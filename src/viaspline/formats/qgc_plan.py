@@ -12,14 +12,19 @@ from pathlib import Path
 from typing import Any, ClassVar, Final
 
 from viaspline.errors import MissionError
-from viaspline.formats.items import TERRAIN, FenceArea, Home, Item, Itinerary, LatLon, Place
+from viaspline.formats.items import (
+    FenceArea,
+    Home,
+    Itinerary,
+    LatLon,
+    Place,
+)
 from viaspline.formats.json_tree import Tree, json_tree
 from viaspline.formats.mission_format import Whereabouts, Written
 from viaspline.formats.named_files import world_data
 from viaspline.formats.outgoing import itinerary_of, lost_of
+from viaspline.formats.plan_items import plan_items
 from viaspline.formats.plan_parts import (
-    ABOVE_TERRAIN,
-    ALTITUDE_MODES,
     circle_json,
     item_json,
     polygon_json,
@@ -71,7 +76,7 @@ class QgcPlan(WaypointFormat):
                 'it should have "fileType": "Plan" and a mission',
             )
         notes: dict[str, list[str]] = {}
-        items = tuple(_items(mission["items"], notes))
+        items = tuple(plan_items(mission["items"], notes))
         fences = tuple(_fences(root["geoFence"], notes))
         for point in root["rallyPoints"]["points"].items():
             notes.setdefault("rally point", []).append(point.key)
@@ -176,81 +181,6 @@ def _check_version(version: Tree, known: tuple[int, ...]) -> None:
         version.fault("is missing", remedy)
     elif version.value not in known:
         version.fault(f"version {describe(version.value)} of the format isn't known", remedy)
-
-
-def _items(tree: Tree, notes: dict[str, list[str]]) -> Iterator[Item]:
-    """The items in order, complex ones resolved; numbers count the simple items, from 1."""
-    number = 0
-    for entry in tree.items():
-        for simple in _resolved(entry, notes):
-            number += 1
-            item = _item(simple, number)
-            if item is not None:
-                yield item
-
-
-def _resolved(entry: Tree, notes: dict[str, list[str]]) -> Iterator[Tree]:
-    """The simple items that an item stands for."""
-    if not isinstance(entry.value, dict):
-        entry.fault(f"found {describe(entry.value)}", "it should be a mission item")
-        return
-    if entry["type"].value != "ComplexItem":
-        yield entry
-        return
-    kind = entry["complexItemType"].value
-    transects = entry["TransectStyleComplexItem"]["Items"]
-    if isinstance(transects.value, list) and transects.value:
-        yield from transects.items()
-        return
-    name = kind if isinstance(kind, str) else "complex item"
-    notes.setdefault(f"{name} that isn't resolved to way points", []).append(entry.key)
-
-
-def _item(tree: Tree, number: int) -> Item | None:
-    command = tree["command"].whole()
-    frame = tree["frame"].whole()
-    values = _values(tree)
-    if command is None or frame is None or values is None:
-        return None
-    *params, latitude, longitude, altitude = values
-    over_terrain = altitude if frame in TERRAIN else math.nan
-    if _altitude_mode(tree["AltitudeMode"]) == ABOVE_TERRAIN:
-        # The altitude above sea level is what QGroundControl makes of it, once it has a terrain.
-        over_terrain = tree["Altitude"].number()
-        altitude = tree["AMSLAltAboveTerrain"].number()
-    return Item(
-        number=number,
-        command=command,
-        frame=frame,
-        params=(params[0], params[1], params[2], params[3]),
-        latitude=latitude,
-        longitude=longitude,
-        altitude=altitude,
-        place=Place(tree.key),
-        over_terrain=over_terrain,
-    )
-
-
-def _altitude_mode(tree: Tree) -> int | None:
-    """What an altitude is above, where the item says so beside its frame."""
-    mode = None if tree.value is None else tree.whole()
-    if mode is not None and mode not in ALTITUDE_MODES:
-        names = ", ".join(f"{number} ({words})" for number, words in ALTITUDE_MODES.items())
-        tree.fault(f"there is no AltitudeMode {mode}", f"it should be one of {names}")
-    return mode
-
-
-def _values(tree: Tree) -> tuple[float, ...] | None:
-    """The seven parameters, from any of the three ways in which they have been written."""
-    if "coordinate" in tree:
-        position = tree["coordinate"].numbers(3, "[latitude, longitude, altitude]")
-        if "params" in tree:
-            params = tree["params"].numbers(4, "a list of four parameters")
-        else:
-            params = tuple(tree[f"param{i}"].number() for i in range(1, 5))
-        return (*params[:4], *position[:3]) if params and position else None
-    params = tree["params"].numbers(7, "a list of seven parameters")
-    return params[:7] if params else None
 
 
 def _home(tree: Tree) -> Home | None:

@@ -17,6 +17,7 @@ from viaspline.bounded_file import TERRAIN_FILE, read_bytes
 from viaspline.errors import MissionError
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.map_faults import check_heights, check_nodes, refusal
+from viaspline.maps.prj_file import unit_beside
 from viaspline.maps.reading import Reading
 from viaspline.maps.terrain import Terrain
 
@@ -25,6 +26,8 @@ _KEYS: Final = (
     "ncols", "nrows", "xllcorner", "xllcenter", "yllcorner", "yllcenter",
     "cellsize", "dx", "dy", "nodata_value",
 )  # fmt: skip
+FINEST_M: Final = 0.01
+"""What has finer cells, and lies where degrees do, is in degrees: an arc second is 0.00028."""
 _REMEDY: Final = "it should begin with ncols, nrows, xllcorner, yllcorner and cellsize, a line each"
 
 
@@ -48,6 +51,7 @@ def read_esri_ascii(path: str | Path, *, source: str | None = None) -> Terrain:
     check_nodes(file, columns, rows)
     cell = _cell(file, header)
     origin = _middle(file, header, "x", cell), _middle(file, header, "y", cell)
+    _check_metres(file, cell, origin)
     heights = _heights(file, data, start, columns * rows).reshape(rows, columns)
     if "nodata_value" in header:
         heights[heights == _number(file, header, "nodata_value")] = np.nan
@@ -107,6 +111,17 @@ def _cell(path: Path, header: dict[str, tuple[str, int]]) -> float:
         problem, remedy = "dx and dy differ, so cells aren't square", "sample it anew with dx = dy"
         raise refusal(path, problem, remedy, key="dy", at=at)
     return cell
+
+
+def _check_metres(path: Path, cell: float, origin: tuple[float, float]) -> None:
+    """Refuse a grid that isn't in metres, as far as that can be known: it says no unit itself."""
+    remedy = "project it to metres, e.g. gdalwarp -t_srs EPSG:32632"
+    if (unit := unit_beside(path)) is not None:
+        raise refusal(path, f"its .prj file says that it is in {unit}", remedy)
+    on_globe = abs(origin[0]) <= 360.0 and abs(origin[1]) <= 90.0
+    if cell < FINEST_M and on_globe:
+        problem = f"its cells are {cell:g} m wide, so it seems to be in degrees"
+        raise refusal(path, problem, f"{remedy}, or hand in vs.Terrain(heights, {cell:g})")
 
 
 def _middle(path: Path, header: dict[str, tuple[str, int]], axis: str, cell: float) -> float:

@@ -5,9 +5,12 @@ Tested through ``mission/space/test_read_solids``.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
+from viaspline.errors import GeometryError
 from viaspline.maps.map_faults import refusal
 from viaspline.maps.reading import Unknown
 from viaspline.maps.terrain import Terrain
@@ -33,6 +36,13 @@ def read_voxels(
     Raises:
         MissionError: The file can't be read or makes no sense, or has no use for an argument.
     """
+    with _placed(path):
+        return _read_voxels(path, unknown, cell, origin, source)
+
+
+def _read_voxels(
+    path: Path, unknown: Unknown | None, cell: float | None, origin: Corner, source: str | None
+) -> Voxels:
     suffix = path.suffix.lower()
     if suffix == ".3dmap":
         from viaspline.maps.hog2_voxels import read_hog2_voxels
@@ -65,19 +75,33 @@ def read_terrain(
     Raises:
         MissionError: The file can't be read or makes no sense.
     """
+    with _placed(path):
+        terrain = _read_terrain(path, source)
+        if origin == (0.0, 0.0):
+            return terrain
+        x, y = terrain.origin
+        return replace(terrain, origin=(x - origin[0], y - origin[1]))
+
+
+def _read_terrain(path: Path, source: str | None) -> Terrain:
     suffix = path.suffix.lower()
     if suffix in (".tif", ".tiff"):
         from viaspline.maps.geotiff import read_geotiff
 
-        terrain = read_geotiff(path, source=source)
-    elif suffix == ".asc":
+        return read_geotiff(path, source=source)
+    if suffix == ".asc":
         from viaspline.maps.esri_ascii import read_esri_ascii
 
-        terrain = read_esri_ascii(path, source=source)
-    else:
-        problem = "is a kind of terrain that isn't understood"
-        raise refusal(path, problem, "understood are GeoTIFF (.tif) and ASCII grids (.asc)")
-    if origin == (0.0, 0.0):
-        return terrain
-    x, y = terrain.origin
-    return replace(terrain, origin=(x - origin[0], y - origin[1]))
+        return read_esri_ascii(path, source=source)
+    problem = "is a kind of terrain that isn't understood"
+    raise refusal(path, problem, "understood are GeoTIFF (.tif) and ASCII grids (.asc)")
+
+
+@contextmanager
+def _placed(path: Path) -> Iterator[None]:
+    """What is wrong with the numbers of a file, told with its name."""
+    try:
+        yield
+    except GeometryError as error:
+        problem, _, remedy = str(error).partition("; ")
+        raise refusal(path, problem, remedy or "correct it") from None

@@ -12,9 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from, numbers_from
+from viaspline.maps.area import FARTHEST_M
+from viaspline.maps.map_reach import check_reach
 from viaspline.maps.reading import Reading
 
 MOST_NODES_ASIDE = 32_000
+MOST_NODES_IN_ALL = 2**28
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +29,7 @@ class Terrain:
 
     Attributes:
         heights: Of the nodes [m], shape (ny, nx), row 0 the southmost, read-only; NaN where none
-            is known.
+            is known. What is masked isn't known either.
         cell: From node to node [m].
         origin: x, y [m] of node (0, 0).
         source: The file it was read from, as the mission names it; None for one made in memory.
@@ -50,19 +53,13 @@ class Terrain:
     digest: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        nodes = np.array(numbers_from("heights", self.heights), dtype=np.float64, order="C")
-        if nodes.ndim != 2 or min(nodes.shape) < 2 or max(nodes.shape) > MOST_NODES_ASIDE:
-            raise GeometryError(
-                f"heights have shape (ny, nx) with 2 to {MOST_NODES_ASIDE} nodes aside, "
-                f"not {nodes.shape}"
-            )
-        if np.isinf(nodes).any():
-            raise GeometryError("heights are finite, or NaN where none is known")
+        nodes = _nodes(self.heights)
         nodes.flags.writeable = False
         side = number_from("cell", self.cell)
         if not 0.0 < side < math.inf:
             raise GeometryError(f"cell is {self.cell}; give a distance above 0 m")
         corner = _place(self.origin)
+        check_reach("a terrain", corner, nodes.shape[::-1], side)
         digest = hashlib.blake2b(nodes.tobytes(), digest_size=16)
         digest.update(np.array((*nodes.shape, side, *corner), dtype="<f8").tobytes())
         object.__setattr__(self, "heights", nodes)
@@ -126,6 +123,30 @@ class Terrain:
         low = (1 - a) * self.heights[j, i] + a * self.heights[j, i + 1]
         high = (1 - a) * self.heights[j + 1, i] + a * self.heights[j + 1, i + 1]
         return np.where(inside, (1 - b) * low + b * high, np.nan)
+
+
+def _nodes(given: ArrayLike) -> NDArray[np.float64]:
+    """Heights as an array of its own; NaN where one is masked."""
+    if isinstance(given, np.ndarray):
+        if given.dtype.kind not in "biuf":
+            raise GeometryError(f"heights are of the type {given.dtype}; give numbers of metres")
+        if given.size > MOST_NODES_IN_ALL:
+            raise GeometryError(f"{given.size} heights are too many; at most {MOST_NODES_IN_ALL}")
+        if np.ma.isMaskedArray(given):
+            given = np.ma.filled(given.astype(np.float64), np.nan)
+    nodes = np.array(numbers_from("heights", given), dtype=np.float64, order="C")
+    if nodes.ndim != 2 or min(nodes.shape) < 2 or max(nodes.shape) > MOST_NODES_ASIDE:
+        raise GeometryError(
+            f"heights have shape (ny, nx) with 2 to {MOST_NODES_ASIDE} nodes aside, "
+            f"not {nodes.shape}"
+        )
+    if np.isinf(nodes).any():
+        raise GeometryError("heights are finite, or NaN where none is known")
+    if (np.abs(nodes) > FARTHEST_M).any():
+        raise GeometryError(
+            f"heights are at most {FARTHEST_M:g} m from 0, or NaN where none is known"
+        )
+    return nodes
 
 
 def _extreme(heights: NDArray[np.float64], which: object) -> float:

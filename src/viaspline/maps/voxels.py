@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from, numbers_from
-from viaspline.maps.blocked_cells import blocked_cells
+from viaspline.maps.blocked_cells import blocked_cells, given_cells
+from viaspline.maps.map_reach import check_reach
 from viaspline.maps.reading import Reading
 
 MOST_VOXELS_ASIDE = 4096
@@ -53,19 +54,13 @@ class Voxels:
     digest: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
+        _check_shape(given_cells(self.blocked))
         cubes = blocked_cells(self.blocked)
-        if cubes.ndim != 3 or not cubes.size:
-            raise GeometryError(f"voxels have shape (nx, ny, nz), not {cubes.shape}")
-        if max(cubes.shape) > MOST_VOXELS_ASIDE or cubes.size > MOST_VOXELS:
-            aside = " x ".join(map(str, cubes.shape))
-            raise GeometryError(
-                f"{aside} voxels are too many; at most {MOST_VOXELS_ASIDE} aside, "
-                f"{MOST_VOXELS} in all"
-            )
         side = number_from("cell", self.cell)
         if not 0.0 < side < math.inf:
             raise GeometryError(f"cell is {self.cell}; give a side above 0 m")
         corner = _corner(self.origin)
+        check_reach("a block of voxels", corner, cubes.shape, side)
         numbers = np.array((*cubes.shape, side, *corner), dtype="<f8")
         digest = hashlib.blake2b(np.packbits(cubes).tobytes(), digest_size=16)
         digest.update(numbers.tobytes())
@@ -90,6 +85,17 @@ class Voxels:
         nx, ny, nz = self.blocked.shape
         x, y, z = self.origin
         return x, y, z, x + nx * self.cell, y + ny * self.cell, z + nz * self.cell
+
+
+def _check_shape(given: NDArray[np.generic]) -> None:
+    """Refuse too many cubes before any is copied."""
+    if given.ndim != 3 or not given.size:
+        raise GeometryError(f"voxels have shape (nx, ny, nz), not {given.shape}")
+    if max(given.shape) > MOST_VOXELS_ASIDE or given.size > MOST_VOXELS:
+        aside = " x ".join(map(str, given.shape))
+        raise GeometryError(
+            f"{aside} voxels are too many; at most {MOST_VOXELS_ASIDE} aside, {MOST_VOXELS} in all"
+        )
 
 
 def _corner(given: Sequence[float]) -> Corner:

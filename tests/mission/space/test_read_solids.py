@@ -34,6 +34,7 @@ def loaded(folder: Path, text: str) -> Mission:
     return mission
 
 
+FOUR = "ncols 2\nnrows 2\n1 2\n3 4\n"
 WORLD = """world:
   ground: {terrain: maps/dem.asc, nodata: free, origin_m: [500, 1000]}
   known:
@@ -114,3 +115,35 @@ def test_a_broken_row_of_voxels_is_told_by_its_own_line(folder: Path) -> None:
     (folder / "maps" / "a.3dmap").write_text("voxel 2 2 2\n1 0 7\n")
     with pytest.raises(MissionError, match=r"m.yaml:4:.*known\[0\].voxels.file: .*a.3dmap:2:1: "):
         loaded(folder, WORLD)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "wrong"),
+    [
+        (
+            "dem.asc",
+            "ncols 2\nnrows 2\nxllcorner 1e308\nyllcorner 0\ncellsize 9\n1 2\n3 4\n",
+            "1e+308",
+        ),
+        (
+            "dem.asc",
+            "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1e-320\n1 2\n3 4\n",
+            "cells",
+        ),
+        ("a.3dmap", "voxel 4000 1 1\n1 0 0\n", "4e+09"),
+    ],
+)
+def test_a_file_of_what_lies_out_of_this_world_is_named(
+    folder: Path, name: str, text: str, wrong: str
+) -> None:
+    (folder / "maps" / name).write_text(text)
+    asked = {
+        "dem.asc": "world: {ground: {terrain: maps/dem.asc}}\n",
+        "a.3dmap": "world: {known: [{voxels: {file: maps/a.3dmap, cell_m: 1e6}}]}\n",
+    }
+    with pytest.raises(MissionError) as raised:
+        loaded(folder, asked[name])
+    [fault] = raised.value.faults
+    assert f"maps/{name}" in fault.problem
+    assert wrong in fault.problem
+    assert fault.remedy
