@@ -77,8 +77,9 @@ class Flight:
         if len(self.ahead_of(now)) == 1:
             return self
         under_way = replace(self.legs[-2], until=np.inf)
+        before = replace(self.problems[-2], world=self.problem.world)  # what is known stays known
         return replace(
-            self, legs=(*self.legs[:-2], under_way), problems=self.problems[:-1],
+            self, legs=(*self.legs[:-2], under_way), problems=(*self.problems[:-2], before),
             replans=self.replans[:-1],
         )  # fmt: skip
 

@@ -43,15 +43,17 @@ def reacted(flight: Flight, now: float, seen: Sequence[UnseenSolid]) -> Flight:
     """A flight in which something was seen: with another path, if it is in the way."""
     known = with_seen(flight.known, seen)
     unseen = tuple(one for one in flight.unseen if one not in seen)
-    flight = replace(flight, known=known, unseen=unseen)
+    # What isn't in the way now may be in that of a path past something else.
+    problem = replace(flight.problem, world=spatial_world_of(known, flight_places(known)))
+    problems = (*flight.problems[:-1], problem)
+    flight = replace(flight, known=known, unseen=unseen, problems=problems)
     if all(_is_passed_clear(flight, now, one) for one in seen):
         return flight
     names = tuple(one.name for one in seen)
     if len(flight.ahead_of(now)) > 1:  # a path that is given up before it began
         names = (*flight.replans[-1].obstacles, *names)
         flight = flight.without_pending(now)
-    problem = replace(flight.problem, world=spatial_world_of(known, flight_places(known)))
-    return _led_past(replace(flight, problems=(*flight.problems[:-1], problem)), now, names)
+    return _led_past(flight, now, names)
 
 
 def _led_past(flight: Flight, now: float, names: tuple[str, ...]) -> Flight:
