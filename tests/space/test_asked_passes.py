@@ -1,7 +1,9 @@
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
-from viaspline.errors import GaveUpError
+from viaspline.errors import GaveUpError, NoPathError
 from viaspline.mission.model import Mission
 from viaspline.space.asked_passes import asked_passes, gates_of_leg
 from viaspline.space.plan_spatial import plan_spatial
@@ -32,14 +34,50 @@ def test_an_obstacle_counts_on_legs_that_come_near_it_and_on_no_other() -> None:
     assert asked_passes(mission()) == ()
 
 
-def test_sides_that_leave_no_way_are_named_where_there_is_one_without_them() -> None:
-    wall = {"name": "wall", "box": {"min": [20, -5, 0], "max": [22, 5, 18]}, "pass_on": "over"}
-    data = {
-        "world": {"known": [wall], "altitude": {"max_m": 18}},
+WALL = {"name": "wall", "box": {"min": [20, -5, 0], "max": [22, 5, 18]}, "pass_on": "over"}
+
+
+def flight(*known: dict[str, object], via: Sequence[list[float]] = (), **route: object) -> Mission:
+    return Mission.model_validate({
+        "world": {"known": known, "altitude": {"min_m": 1, "max_m": 18}},
         "robot": {"radius_m": 0.5, "clearance_m": 1},
-        "route": {"start": [0, 0, 8], "goal": [40, 0, 8]},
-    }
+        "route": {"start": [0, 0, 8], "via": via, "goal": [40, 0, 8], **route},
+    })  # fmt: skip
+
+
+def test_sides_that_leave_no_way_are_named_where_there_is_one_without_them() -> None:
+    lid = {"name": "lid", "box": {"min": [10, -9, 15], "max": [32, 9, 18]}}
+    low = {**WALL, "box": {"min": [20, -5, 0], "max": [22, 5, 14]}}
     with pytest.raises(GaveUpError) as told:
-        plan_spatial(Mission.model_validate(data))
+        plan_spatial(flight(low, lid))
     assert "passes 'wall' over; without that there is one" in str(told.value)
     assert "pass_on" in told.value.remedy
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ({"pass_on": "over"}, "'wall' over"),
+        ({"pass_on": "under"}, "'wall' under"),
+    ],
+)
+def test_a_side_for_which_the_limits_leave_no_room_is_refused(
+    asked: dict[str, str], words: str
+) -> None:
+    with pytest.raises(
+        NoPathError, match=f"nothing passes {words}: there is no room for 1 m"
+    ) as told:
+        plan_spatial(flight({**WALL, **asked}))
+    assert told.value.obstacles == ("wall",)
+    assert told.value.via == "goal"
+    assert plan_spatial(flight({**WALL, "pass_on": "left"})).certificate.holds
+    never = {"never_pass_on": "right", **{k: WALL[k] for k in ("name", "box")}}
+    assert plan_spatial(flight(never)).certificate.holds
+
+
+def test_an_order_leaves_out_legs_that_would_pass_where_there_is_no_room() -> None:
+    """Beyond the wall's ends lie both via points: from one to the other none may go straight."""
+    high = {**WALL, "box": {"min": [20, -30, 0], "max": [22, 5, 18]}}
+    found = plan_spatial(flight({**high, "pass_on": "left"}, via=[[30, 20, 8], [10, 20, 8]],
+                                order="shortest"))  # fmt: skip
+    assert [via.at[0] for via in found.mission.route.via] == [10.0, 30.0]

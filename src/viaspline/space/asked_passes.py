@@ -13,6 +13,8 @@ from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.shapes.solids import Prism, RoundedSegment, Solid
 from viaspline.space.routing.pass_gates import NO_GATES, PassSide, gate, without
+from viaspline.space.routing.search_room import SearchRoom
+from viaspline.space.routing.shut_sides import is_shut
 
 NEAR = 2.0
 """Of the body and its clearance: what a leg's straight line comes so near to, it has to pass."""
@@ -46,6 +48,20 @@ class AskedPass:
         if obstacle.never_pass_on is not None:
             return cls(obstacle.solid(), without([obstacle.never_pass_on]), name)
         return None
+
+    def is_shut(self, room: SearchRoom, first: Floats, last: Floats, required: float) -> bool:
+        """Whether it is known that no way between two places passes it so; see ``shut_sides``.
+
+        Args:
+            room: Where.
+            first: Where the way begins [m], (3,).
+            last: Where it ends [m], (3,).
+            required: Distance to be kept from everything [m].
+        """
+        rows = np.concatenate([gate(self.solid, first, last, [side]) for side in self.allowed])
+        return len(rows) > 0 and all(
+            is_shut(room, self.solid, row, (first, last), required) for row in rows
+        )
 
     @property
     def words(self) -> str:

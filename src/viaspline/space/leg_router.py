@@ -15,7 +15,7 @@ import numpy as np
 
 from viaspline.curve.certificate import certify
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import GaveUpError, GeometryError, NoPathError
+from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.space.routing.way_checks import way_cost
 from viaspline.maps.voxels import Voxels
@@ -26,6 +26,7 @@ from viaspline.planning.problem.method import Found
 from viaspline.space.asked_passes import AskedPass, asked_passes, gates_of_leg, passes_of_leg
 from viaspline.space.gates_crossed import crossings, side_of
 from viaspline.space.laying.corner_rounding import straight_span
+from viaspline.space.legs_without_way import given_up_leg, refused_leg, shut_leg
 from viaspline.space.routing.pass_gates import SIDE_BITS, gate
 from viaspline.space.routing.search_room import SearchRoom
 from viaspline.space.routing.side_seeds import seeds
@@ -90,18 +91,35 @@ class LegRouter:
         down = top if limits.descent is None else limits.descent
         return top, up, down
 
+    @property
+    def _body(self) -> float:
+        """Radius of the body and its clearance together [m]."""
+        return self.problem.required + float(self.problem.world.packed.core[0])
+
     def gates(self, leg: int) -> Floats:
         """What a leg has to pass on which sides, (g, 8)."""
         return self._gates_between(*self._ends(leg))
 
     def _gates_between(self, first: Floats, last: Floats) -> Floats:
-        body = self.problem.required + float(self.problem.world.packed.core[0])
-        return gates_of_leg(self._asked, first, last, body)
+        return gates_of_leg(self._asked, first, last, self._body)
+
+    def _shut_passes(self, first: Floats, last: Floats) -> list[AskedPass]:
+        """What is to be passed between two places on sides none of which there is."""
+        required, room = self.problem.required, self._router.room
+        near = passes_of_leg(self._asked, first, last, self._body)
+        return [one for one in near if one.is_shut(room, first, last, required)]
 
     def between(self, first: Floats, last: Floats) -> SpaceOutcome:
-        """The cheapest way between any two places [m], (3,) each, on the sides that are asked."""
+        """The cheapest way between any two places [m], (3,) each, on the sides that are asked.
+
+        Where there is none, it isn't said why.
+        """
+        if shut := self._shut_passes(first, last):
+            return SpaceRefusal(f"nothing passes {shut[0].words}", None, (*first.tolist(),))
         gates = self._gates_between(first, last)
-        return self._router.find(first, last, self.problem.required, self._norm, gates)
+        return self._router.without_proof.find(
+            first, last, self.problem.required, self._norm, gates
+        )
 
     def straight_cost(self, first: Floats, last: Floats) -> float:
         """What the straight way between two places costs [m or s], whatever stands there."""
@@ -164,12 +182,14 @@ class LegRouter:
     def _taut(self, leg: int) -> TautRoute:
         """The cheapest way of a leg."""
         first, last = self._ends(leg)
+        if shut := self._shut_passes(first, last):
+            raise shut_leg(self.problem, leg, shut)
         gates = self.gates(leg)
         outcome = self._router.find(first, last, self.problem.required, self._norm, gates)
         if isinstance(outcome, SpaceRefusal):
-            raise self._refused(leg, outcome)
+            raise refused_leg(self.problem, leg, outcome)
         if isinstance(outcome, SpaceGaveUp):
-            raise self._gave_up(leg, outcome)
+            raise given_up_leg(self.problem, leg, outcome, self._sides_in_the_way(leg))
         return outcome.value
 
     def _ends(self, leg: int) -> tuple[Floats, Floats]:
@@ -204,44 +224,10 @@ class LegRouter:
             return None
         return self.mission.world.standing[names.index(proof.obstacle)].solid()
 
-    def _refused(self, leg: int, refusal: SpaceRefusal) -> NoPathError:
-        first, last = self.problem.vias[leg], self.problem.vias[leg + 1]
-        name = self.problem.world.name(refusal.obstacle)
-        at_start = np.allclose(refusal.where, first.at)
-        which = first.name if at_start else last.name
-        reason = refusal.reason.removeprefix("the start").removeprefix("the goal").strip()
-        return NoPathError(
-            f"'{which}' {reason}" + ("" if refusal.obstacle == -1 else f" by '{name}'"),
-            where=refusal.where,
-            remedy="move it, or ask for less clearance",
-            via=which,
-            obstacles=() if refusal.obstacle < 0 else (name,),
-        )
-
-    def _gave_up(self, leg: int, outcome: SpaceGaveUp) -> GaveUpError:
-        first, last = self.problem.vias[leg], self.problem.vias[leg + 1]
-        if sides := self._sides_in_the_way(leg):
-            names = f"from '{first.name}' to '{last.name}'"
-            return GaveUpError(
-                f"{names} no route was found that passes {sides}; without that there is one",
-                where=first.at.tolist(),
-                remedy="leave out pass_on or never_pass_on there, or ask for other sides",
-                tried=outcome.tried,
-                via=last.name,
-            )
-        return GaveUpError(
-            f"from '{first.name}' to '{last.name}' {outcome.reason}",
-            where=first.at.tolist(),
-            remedy=f"{outcome.would_help}, or a via point on the way",
-            tried=outcome.tried,
-            via=last.name,
-        )
-
     def _sides_in_the_way(self, leg: int) -> str:
         """The asked sides of a leg, if there is a way without them; else nothing."""
         first, last = self._ends(leg)
-        body = self.problem.required + float(self.problem.world.packed.core[0])
-        asked = passes_of_leg(self._asked, first, last, body)
+        asked = passes_of_leg(self._asked, first, last, self._body)
         if not asked or not isinstance(
             self._router.find(first, last, self.problem.required, self._norm), Found
         ):

@@ -84,7 +84,12 @@ class SpaceRouter:
     @property
     def quick(self) -> SpaceRouter:
         """This one for ways that needn't be there: on one lattice, and without a proof."""
-        return replace(self, halvings=0, most_cells=0)
+        return replace(self.without_proof, halvings=0)
+
+    @property
+    def without_proof(self) -> SpaceRouter:
+        """This one for ways of which nobody asks why there is none."""
+        return replace(self, most_cells=0)
 
     def best_up_to(self, cost: float) -> SpaceRouter:
         """This one for ways of which those that cost more [m or s] are only to be told of."""
