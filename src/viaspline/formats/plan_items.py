@@ -71,7 +71,7 @@ def _item(tree: Tree, number: int, notes: dict[str, list[str]]) -> Item | None:
         over_terrain = tree["Altitude"].number()
         altitude = tree["AMSLAltAboveTerrain"].number()
         frame = ABOVE_SEA
-    elif mode in _FRAMES and frame in GLOBAL and frame not in _FRAMES[mode]:
+    elif mode is not None and frame in GLOBAL and frame not in _FRAMES.get(mode, GLOBAL):
         kind = f"AltitudeMode {mode} ({ALTITUDE_MODES[mode]}), and frame {frame}, which counts"
         notes.setdefault(kind, []).append(tree.key)
     return Item(

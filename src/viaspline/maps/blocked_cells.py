@@ -5,7 +5,7 @@ Tested through ``maps/test_grid`` and ``maps/test_voxels``.
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,7 +34,7 @@ def blocked_cells(cells: ArrayLike) -> NDArray[np.bool_]:
     return copy
 
 
-def given_cells(cells: ArrayLike) -> NDArray[np.generic]:
+def given_cells(cells: ArrayLike) -> NDArray[Any]:
     """What was handed in for cells as an array, not copied if it is one already.
 
     Raises:
@@ -48,7 +48,7 @@ def given_cells(cells: ArrayLike) -> NDArray[np.generic]:
         raise GeometryError(f"cells make no array: {error}; {_REMEDY}") from None
 
 
-def _check_truth(given: NDArray[np.generic]) -> None:
+def _check_truth(given: NDArray[Any]) -> None:
     """Refuse numbers other than 0 and 1: shares and marks are each map's own."""
     odd = given[(given != 0) & (given != 1)]
     if odd.size:

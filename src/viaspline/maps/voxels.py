@@ -6,6 +6,7 @@ import hashlib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,7 +88,7 @@ class Voxels:
         return x, y, z, x + nx * self.cell, y + ny * self.cell, z + nz * self.cell
 
 
-def _check_shape(given: NDArray[np.generic]) -> None:
+def _check_shape(given: NDArray[Any]) -> None:
     """Refuse too many cubes before any is copied."""
     if given.ndim != 3 or not given.size:
         raise GeometryError(f"voxels have shape (nx, ny, nz), not {given.shape}")

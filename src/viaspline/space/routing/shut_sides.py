@@ -25,7 +25,6 @@ from viaspline.kernels.space.routing.side_gates import (
     MOST,
     OVER,
     RIGHT,
-    UNDER,
 )
 from viaspline.mission.shapes.solids import Prism, Solid
 from viaspline.space.routing.pass_gates import section_of
@@ -61,8 +60,8 @@ def is_shut(
         return False
     low, high = solid.low, solid.high
     if side == OVER:
-        return high + required > room.limits[5]
-    return side == UNDER and low - required < room.limits[2]
+        return bool(high + required > room.limits[5])
+    return bool(low - required < room.limits[2])
 
 
 def _is_shut_beside(room: SearchRoom, row: Floats, kept: float) -> bool:
