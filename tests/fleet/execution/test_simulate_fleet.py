@@ -166,7 +166,7 @@ def test_what_is_driven_is_proven_to_be_as_far_apart_as_was_planned(
             laws.arrive[first + 1 : end] - laws.leave[first : end - 1],
         )
         off = np.diff(courses.distance[first:end]) - 0.5 * (speed[1:] + speed[:-1]) * lasts
-        assert np.abs(off).max() < 1e-5  # of a speed of a micrometre a second
+        assert np.abs(off).max() < 1e-8
 
 
 def test_lost_messages_only_delay() -> None:

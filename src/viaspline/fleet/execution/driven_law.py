@@ -1,7 +1,4 @@
-"""What was driven as laws on courses: exact, and proven by what proves plans.
-
-Tested through ``fleet/execution/test_simulate_fleet``.
-"""
+"""What was driven as laws on courses: exact, and proven by what proves plans."""
 
 from __future__ import annotations
 
@@ -15,7 +12,7 @@ from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 
 SAME_M = 1e-7
-"""Places that lie nearer to each other are one."""
+"""Rests that are nearer to each other are one; nodes of a course so near to a row are left out."""
 
 
 def stretches_of(ticks: FleetTicks, departs: Floats) -> list[Floats]:
@@ -74,12 +71,19 @@ def driven_laws(
 
 
 def _law(rows: Floats, nodes: Floats, end: float) -> Floats:
-    """Place, arrival, departure and speed at all nodes and wherever the acceleration changes."""
-    begins = np.flatnonzero(np.diff(rows[:, 1], prepend=-np.inf) > SAME_M)
+    """Place, arrival, departure and speed at all nodes and wherever the acceleration changes.
+
+    Rows at one place are joined, and rests. Others that are nanometres apart are not: who goes on
+    has another speed there already, with which all of the way to the next row would be off.
+    """
+    along = np.maximum.accumulate(rows[:, 1])  # rounding goes back
+    rests = rows[:, 2] == 0.0
+    same = np.where(rests[1:] & rests[:-1], SAME_M, 0.0)
+    begins = np.flatnonzero(np.append(True, np.diff(along) > same))
     lasts = np.append(begins[1:], len(rows)) - 1
     slowest = _slowest(rows[:, 2], begins)
     arrive, square = rows[slowest, 0], rows[slowest, 2]
-    leave, places = rows[lasts, 0], rows[lasts, 1]
+    leave, places = rows[lasts, 0], along[lasts]
     between = nodes[(nodes < end) & (nodes > places[0])]
     near = np.searchsorted(places, between - SAME_M)
     between = between[places[np.minimum(near, len(places) - 1)] > between + SAME_M]

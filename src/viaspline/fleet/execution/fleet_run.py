@@ -170,12 +170,12 @@ class FleetRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
             return np.asarray(self.by_clock[name].distance_at(times))
         nodes = slice(int(courses.first[robot]), int(courses.first[robot + 1]))
         along, arrive, leave = courses.distance[nodes], laws.arrive[nodes], laws.leave[nodes]
-        square = laws.speed[nodes] ** 2
         k = np.clip(np.searchsorted(arrive, times, side="right") - 1, 0, along.size - 2)
-        late = np.maximum(times - leave[k], 0.0)
-        width = along[k + 1] - along[k]
-        rise = np.divide(square[k + 1] - square[k], width, out=np.zeros_like(late), where=width > 0)
-        gone = (np.sqrt(square[k]) + 0.25 * rise * late) * late
-        is_over = late >= arrive[k + 1] - leave[k]
-        distance: Floats = along[k] + np.where(is_over, width, np.minimum(gone, width))
+        late, lasts = np.maximum(times - leave[k], 0.0), arrive[k + 1] - leave[k]
+        part = np.divide(late, lasts, out=np.ones_like(late), where=late < lasts)
+        begin, end = laws.speed[nodes][k], laws.speed[nodes][k + 1]
+        both = begin + end
+        speeding = (2.0 * begin + (end - begin) * part) * part
+        gone = np.divide(speeding, both, out=part.copy(), where=both > 0.0)
+        distance: Floats = along[k] + gone * (along[k + 1] - along[k])
         return distance
