@@ -28,6 +28,7 @@ from viaspline.fleet.space.hover_places import hovers_of
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.handed_in import check_kind
+from viaspline.mission.fleet.changed_fleet import changed_fleet
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.space.spatial_plan import SpatialPlan
 
@@ -129,7 +130,8 @@ def remove_robot(plan: FleetPlan, name: str) -> FleetPlan:
     crossings = ordered_crossings(driven.courses, driven.crossings, driven.laws)
     precedences = precedences_of(driven.courses, crossings, driven.laws, rides.laws)
     driven = replace(driven, crossings=crossings)
-    return _planned(plan, members, driven, plans, rides, precedences)
+    fleet = Fleet.of(members, plan.fleet.separation_m)
+    return _planned(plan, fleet, driven, plans, rides, precedences)
 
 
 def _check_nothing_moves(plan: FleetPlan) -> None:
@@ -157,7 +159,14 @@ def _with(plan: FleetPlan, member: FleetMember, members: Sequence[FleetMember]) 
     plans = {**plan.plans, member.name: replace(laid, trajectory=law)}
     crossings, precedences = renewed_precedences(plan, grown, rides.laws)
     joined = replace(joined, crossings=crossings)
-    return _planned(plan, members, joined, plans, rides, precedences)
+    return _planned(plan, _asked(plan, members, member), joined, plans, rides, precedences)
+
+
+def _asked(plan: FleetPlan, members: Sequence[FleetMember], member: FleetMember) -> Fleet:
+    """What is asked for with a robot more, or in place of one of its name."""
+    if plan.is_spatial:
+        return Fleet.of(members, plan.fleet.separation_m)
+    return changed_fleet(plan.fleet, members, member)
 
 
 def _laid(plan: FleetPlan, member: FleetMember) -> AnyPlan:
@@ -230,19 +239,18 @@ def _patrols(
 
 def _planned(
     before: FleetPlan,
-    members: Sequence[FleetMember],
+    fleet: Fleet,
     driven: DrivenFleet,
     plans: Mapping[str, AnyPlan],
     rides: FleetRides,
     precedences: tuple[Precedence, ...],
 ) -> FleetPlan:
     """The plan of a fleet that was changed, proven anew as a whole."""
-    fleet = Fleet.of(members, before.fleet.separation_m)
     patrols = _patrols(before, plans, driven)
     certificate = certify_all(fleet, driven.courses, driven.laws)
     if patrols is not None:
         certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
-    names = [one.name for one in members]
+    names = [one.name for one in fleet.fleet]
     return FleetPlan(
         fleet=fleet,
         plans={name: plans[name] for name in names if name in plans},
