@@ -31,9 +31,9 @@ def certify_all(fleet: Fleet, courses: FleetCourses, laws: FleetLaws) -> FleetCe
         laws: When each of these is where.
     """
     known = set(courses.names)
-    home = [one for one in fleet.members if one.name not in known]
-    if not home or not known:
+    if not known or all(one.name in known for one in fleet.fleet):
         return certify_fleet(courses, laws, fleet.separation_m)
+    home = [one for one in fleet.members if one.name not in known]
     return certify_fleet(
         _with_courses(courses, home, fleet.separation_m), _with_laws(laws, len(home)),
         fleet.separation_m,

@@ -28,6 +28,7 @@ from viaspline.fleet.space.hover_places import hovers_of
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.handed_in import check_kind
+from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.mission.fleet.changed_fleet import changed_fleet
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.space.spatial_plan import SpatialPlan
@@ -199,21 +200,27 @@ def _driven(plan: FleetPlan) -> DrivenFleet:
 
 def _rides(driven: DrivenFleet, before: FleetPlan, changed: str) -> FleetRides:
     """How robots drive alone; all but one as before."""
-    alone, first = driven.alone, driven.courses.packed.first
-    later = np.repeat(driven.rides.depart, np.diff(first))
-    leave = alone.leave + later
-    leave[first[1:] - 1] = np.inf
-    laws = alone._replace(arrive=alone.arrive + later, leave=leave)
-    lasts = alone.leave[first[1:] - 1]
-    known, was = before.rides.laws.packed, before.courses.packed.first
-    numbers = {name: k for k, name in enumerate(before.names) if name != changed}
-    for robot, name in enumerate(driven.names):
-        if name in numbers:
-            old = numbers[name]
-            lasts[robot] = before.rides.alone[old]
-            for one, other in zip(laws[:3], known[:3], strict=True):
-                one[first[robot] : first[robot + 1]] = other[was[old] : was[old + 1]]
-    return FleetRides(driven.rides, lasts, FleetLaws(laws))
+    first, rides = driven.courses.packed.first, driven.rides
+    stay = (set(before.names) & set(driven.names)) - {changed}  # in the order that they were in
+    keeps, kept = (
+        np.array([name in stay for name in names], np.bool_)
+        for names in (driven.names, before.names)
+    )
+    nodes = np.repeat(keeps, np.diff(first))
+    known = np.repeat(kept, np.diff(before.courses.packed.first))
+    alone, laws = np.empty(len(keeps)), [np.empty(len(nodes)) for _ in range(3)]
+    alone[keeps] = before.rides.alone[kept]
+    for one, other in zip(laws, before.rides.laws.packed[:3], strict=True):
+        one[nodes] = other[known]
+    for robot in np.flatnonzero(~keeps).tolist():
+        mine = slice(int(first[robot]), int(first[robot + 1]))
+        leave = rides.depart[robot] + np.cumsum(rides.lasts[mine] + rides.stays[mine])
+        leave -= rides.lasts[mine]
+        alone[robot] = leave[-1] - rides.depart[robot]
+        laws[0][mine], laws[1][mine] = leave - rides.stays[mine], leave
+        laws[1][mine.stop - 1], laws[2][mine] = np.inf, np.sqrt(rides.square[mine])
+    timed = np.ones(len(keeps), np.bool_)
+    return FleetRides(rides, alone, FleetLaws(PackedLaws(*laws, timed)))
 
 
 def _patrols(

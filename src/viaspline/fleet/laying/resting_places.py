@@ -63,7 +63,7 @@ def rests_of(member: FleetMember, reach: float) -> Iterator[RestingPlace]:
         ['start']
     """
     route = member.mission.route
-    *_, (_, last) = route.points()
+    last = route.goal or (route.via[-1] if route.via else route.start)
     start, goal = route.start.at[:2], (route.start if route.closed else last).at[:2]
     stays = member.rest == "stay"
     if stays and start == goal:
