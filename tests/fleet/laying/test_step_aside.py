@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from viaspline.curve.piecewise import PiecewiseCubic
@@ -128,6 +128,36 @@ def test_a_round_goes_on_at_its_seam_as_it_did() -> None:
     ahead, before = first[1] - first[0], last[3] - last[2]
     turned = ahead[0] * before[1] - ahead[1] * before[0]
     assert abs(turned) < 1e-9 * np.hypot(*ahead) * np.hypot(*before)
+    assert ahead @ before > 0.0
+
+
+@given(st.floats(-5, 5), st.floats(-1.5, 1.5))
+@example(-1.87, 0.66)
+@example(2.3, -0.97)
+def test_a_round_steps_aside_beside_its_seam_as_it_does_elsewhere(
+    along: float, beside: float
+) -> None:
+    route = {"start": [0, 0], "via": [[40, 0], [20, 30]], "closed": True}
+    lap = plan(Mission.model_validate({"robot": ROBOT, "route": route}))
+    s = along % lap.path.length
+    x, y = np.asarray(lap.path.at_distance(s)).tolist()
+    heading = float(lap.path.heading(lap.path.parameter(s)))
+    disc = (x - beside * np.sin(heading), y + beside * np.cos(heading), 2.0)
+    assume(np.hypot(*disc[:2]) > 2.2)
+    found = stepped_aside(lap, np.array([disc])).plan
+    if (along, beside) in ((-1.87, 0.66), (2.3, -0.97)):
+        assert found is not None
+    if found is None:
+        return
+    path = found.path
+    line = path.evaluate(np.linspace(*path.domain, 9000))
+    assert np.hypot(*(line - disc[:2]).T).min() >= 2.0 - 2e-4
+    users = [via for via in path.vias if via.kind == "user"]
+    places = path.evaluate(np.array([via.u for via in users]))
+    assert places == pytest.approx(np.array([(0, 0), (40, 0), (20, 30), (0, 0)]), abs=1e-9)
+    assert [via.index for via in users] == [via.index for via in lap.path.vias]
+    ahead, before = path.spans[0, 1] - path.spans[0, 0], path.spans[-1, 3] - path.spans[-1, 2]
+    assert np.linalg.det([ahead, before]) == pytest.approx(0.0, abs=1e-9)
     assert ahead @ before > 0.0
 
 

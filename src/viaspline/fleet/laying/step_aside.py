@@ -9,14 +9,16 @@ anew all the same: see ``can_step_aside``.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
 from viaspline.curve.bending import is_round
 from viaspline.curve.path import Path, PathVia
 from viaspline.errors import GeometryError
+from viaspline.fleet.laying.turned_round import TurnedRound
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.marked_joints import ASIDE, FIXED, FREE, KEPT
 from viaspline.kernels.fleet.sidestep import step_aside
@@ -30,6 +32,9 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.trajectory.limits import Limits
 from viaspline.trajectory.retime import retime
 from viaspline.whole_plan import stations
+
+Turning: TypeAlias = Callable[[Floats, Ints], tuple[Floats, Ints]]
+"""From spans and marks to those from another start on."""
 
 SHARPEST_PER_M = 0.5
 """The bend of a step aside where no limit asks for a gentler one [1/m]."""
@@ -74,13 +79,31 @@ def stepped_aside(plan: Plan, discs: Floats) -> SteppedAside:
         plan: One that can: see ``can_step_aside``.
         discs: x, y of each, and the distance that the path has to keep from there [m], (n, 3).
     """
+    marks = marks_of(plan)
+    found = _bent(plan, plan.path.spans.copy(), marks, discs)
+    route = plan.mission.route
+    if found.plan is not None or not route.closed or route.start.heading_deg is not None:
+        return found
+    turned = TurnedRound.of(plan.path, marks, discs)
+    if turned is None:
+        return found
+    elsewhere = _bent(plan, turned.spans, turned.marks, discs, turned.back)
+    return found if elsewhere.plan is None else elsewhere
+
+
+def _bent(
+    plan: Plan, spans: Floats, marks: Ints, discs: Floats, back: Turning | None = None
+) -> SteppedAside:
+    """A plan along its path bent aside, which may be given from another start on."""
     requirements = Requirements.of(plan.mission, plan.tracking_error)
     spans, marks, failed = step_aside(
-        plan.world.packed, plan.path.spans.copy(), marks_of(plan), discs, requirements.required,
+        plan.world.packed, spans, marks, discs, requirements.required,
         free_bend(limits_of(plan.mission.robot)),
     )  # fmt: skip
     if failed >= 0:
         return SteppedAside(None, int(failed))
+    if back is not None:
+        spans, marks = back(spans, marks)
     found, radius = plan_along(plan, spans, marks), plan.mission.robot.outer_radius
     is_sharp = found is not None and radius > 0.0 and not is_round(found.path, radius)
     return SteppedAside(None if is_sharp and is_round(plan.path, radius) else found)
