@@ -208,19 +208,20 @@ def _rides(driven: DrivenFleet, before: FleetPlan, changed: str) -> FleetRides:
     )
     nodes = np.repeat(keeps, np.diff(first))
     known = np.repeat(kept, np.diff(before.courses.packed.first))
-    alone, laws = np.empty(len(keeps)), [np.empty(len(nodes)) for _ in range(3)]
+    alone = np.empty(len(keeps))
     alone[keeps] = before.rides.alone[kept]
-    for one, other in zip(laws, before.rides.laws.packed[:3], strict=True):
-        one[nodes] = other[known]
+    arrive, leave, speed = (np.empty(len(nodes)) for _ in range(3))
+    for now, was in zip((arrive, leave, speed), before.rides.laws.packed[:3], strict=True):
+        now[nodes] = was[known]
     for robot in np.flatnonzero(~keeps).tolist():
         mine = slice(int(first[robot]), int(first[robot + 1]))
-        leave = rides.depart[robot] + np.cumsum(rides.lasts[mine] + rides.stays[mine])
-        leave -= rides.lasts[mine]
-        alone[robot] = leave[-1] - rides.depart[robot]
-        laws[0][mine], laws[1][mine] = leave - rides.stays[mine], leave
-        laws[1][mine.stop - 1], laws[2][mine] = np.inf, np.sqrt(rides.square[mine])
+        goes = rides.depart[robot] + np.cumsum(rides.lasts[mine] + rides.stays[mine])
+        goes -= rides.lasts[mine]
+        alone[robot] = goes[-1] - rides.depart[robot]
+        arrive[mine], leave[mine] = goes - rides.stays[mine], goes
+        leave[mine.stop - 1], speed[mine] = np.inf, np.sqrt(rides.square[mine])
     timed = np.ones(len(keeps), np.bool_)
-    return FleetRides(rides, alone, FleetLaws(PackedLaws(*laws, timed)))
+    return FleetRides(rides, alone, FleetLaws(PackedLaws(arrive, leave, speed, timed)))
 
 
 def _patrols(
