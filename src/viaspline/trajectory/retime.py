@@ -11,7 +11,7 @@ from viaspline.errors import GeometryError
 from viaspline.handed_in import all_of, check_answers, check_kind
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.cells import Evaluable
-from viaspline.trajectory.coupled import Stage
+from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.curvature_limited import Cubic
 from viaspline.trajectory.jerk import smooth_law
 from viaspline.trajectory.jerk_limited_lap import smooth_lap
@@ -133,24 +133,44 @@ def retime(
         slow=(*limited_path.slow(zones, start), *slow_between(slow, start, length)),
     )
     if isinstance(limited_path, LimitedCubicPath) and isinstance(end_speed, Seam):
-        profile, seam_speed = lap_profile(limited_path, stage)
-        if limits.max_jerk is not None:
-            return smooth_lap(limited_path, limits, stage, profile, stops, start_time, seam_speed)
-    else:
-        profile = limited_path.profile(stage)
-    if profile.missed == profile.missed:
-        raise _no_room(float(profile.missed), start, start_speed, limits)
+        return _lap_law(limited_path, limits, stage, stops, start_time)
+    profile = _kept(limited_path.profile(stage), stage, limits)
     if limits.max_jerk is not None:
         return smooth_law(
             limited_path, limits, stage, profile, stops, start_time, float(start_accel), replaces
         )
+    return _as_trajectory(profile, limits, stage, stops, start_time)
+
+
+def _lap_law(
+    path: LimitedCubicPath, limits: Limits, stage: Stage, stops: Sequence[Station],
+    start_time: float,
+) -> Trajectory:  # fmt: skip
+    """The time law of a lap that goes on at its start."""
+    profile, seam_speed = lap_profile(path, stage)
+    if limits.max_jerk is not None:
+        return smooth_lap(path, limits, stage, profile, stops, start_time, seam_speed)
+    return _as_trajectory(_kept(profile, stage, limits), limits, stage, stops, start_time)
+
+
+def _kept(profile: Profile, stage: Stage, limits: Limits) -> Profile:
+    """A profile; refused where the robot is too fast to stop somewhere."""
+    if profile.missed == profile.missed:
+        raise _no_room(float(profile.missed), stage.start, stage.first, limits)
+    return profile
+
+
+def _as_trajectory(
+    profile: Profile, limits: Limits, stage: Stage, stops: Sequence[Station], start_time: float
+) -> Trajectory:
+    """A profile as the time law that it is."""
     return Trajectory.through(
         profile.points,
         profile.squares,
         max_accel=crawl(limits),
         stations=stops,
         start_time=start_time,
-        over_limit_until=profile.over if profile.over > start else None,
+        over_limit_until=profile.over if profile.over > stage.start else None,
     )
 
 
