@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.sparse.csgraph import connected_components
 
 from viaspline.curve.cardinal import CardinalSpline
+from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import FleetCourses, FleetPath, courses_along
@@ -161,6 +162,14 @@ def test_two_robots_on_one_path_have_one_long_crossing() -> None:
     _, found = crossed(lane, lane)
     length = lane.path.length
     assert found.packed.span.tolist() == [[0.0, length, 0.0, length]]
+
+
+def test_who_waits_at_the_edge_of_a_crossing_leaves_the_proof_something_for_rounding() -> None:
+    """A drive was 1 µm and 2e-13 m short of what is asked (strange_fleet_runs.py, 912618)."""
+    _, found = crossed(line((0, 0), (20, 0)), line((12, 9), (12, -9)))
+    begin, end, _, _ = found.packed.span[0].tolist()
+    for waits_at in (begin, end):
+        assert 2.0 - abs(12.0 - waits_at) < 0.6 * PROOF_SLACK_M
 
 
 def test_lanes_exactly_as_far_apart_as_they_have_to_be_do_not_cross() -> None:

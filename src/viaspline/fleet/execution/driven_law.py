@@ -49,7 +49,7 @@ def driven_laws(
     first, parts = [0], []
     for robot, rows in enumerate(stretches):
         nodes = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
-        law = _law(rows, packed.distance[nodes], ends[robot])
+        law = _standing_beside(_law(rows, packed.distance[nodes], ends[robot]), packed, nodes)
         law[-1, 2] = leaves[robot]
         parts.append(np.column_stack((law, _on_chords(packed, nodes, law[:, 0]))))
         first.append(first[-1] + len(law))
@@ -104,6 +104,24 @@ def _law(rows: Floats, nodes: Floats, end: float) -> Floats:
     if len(law) > 1:
         return law
     return np.repeat(law, 2, axis=0)  # a robot that never set out has two nodes at its start
+
+
+def _standing_beside(law: Floats, packed: PackedCourses, nodes: slice) -> Floats:
+    """A law in which stays between nodes of the course are cells of no length.
+
+    Who stands at a node is at its place. Between nodes the course is known by its chords alone, and
+    a cell is what says how far the robot may be from there.
+    """
+    stays = (law[:, 2] > law[:, 1]) & ~np.isin(law[:, 0], packed.distance[nodes])
+    if not stays.any():
+        return law
+    rows = np.arange(len(law))
+    begins = np.repeat(rows, 1 + stays)
+    found = law[begins]
+    second = np.append(False, begins[1:] == begins[:-1])
+    first = np.append(second[1:], False)
+    found[first, 2], found[second, 1] = found[first, 1], found[second, 2]
+    return found
 
 
 def _slowest(square: Floats, begins: Ints) -> Ints:

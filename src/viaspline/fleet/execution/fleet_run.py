@@ -178,4 +178,4 @@ class FleetRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
         speeding = (2.0 * begin + (end - begin) * part) * part
         gone = np.divide(speeding, both, out=part.copy(), where=both > 0.0)
         distance: Floats = along[k] + gone * (along[k + 1] - along[k])
-        return distance
+        return np.minimum(distance, along[k + 1])  # the end of a path is no place beyond it

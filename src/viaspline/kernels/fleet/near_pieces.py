@@ -17,7 +17,7 @@ from viaspline.kernels.fleet.packed_pieces import PackedPieces
 from viaspline.kernels.growable import new_floats, new_ints, sized_ints
 from viaspline.kernels.jit import inlined, inner, kernel
 
-TOUCHING = 1e-6  # robots that are so much too near aren't [m]: see PROOF_SLACK_M
+TOUCHING = 5e-7  # robots that are so much too near aren't [m]: half of PROOF_SLACK_M
 MOST_SQUARES = 12  # of a piece in the mean
 PRIME_X: Final = 73856093
 PRIME_Y: Final = 19349663
