@@ -37,13 +37,19 @@ def test_who_waits_for_a_dead_robot_goes_round_it() -> None:
     assert drive.at["r1"] == pytest.approx([20.0, 20.0])
 
 
-def test_nobody_rests_in_the_way_of_one_that_waits_for_a_dead_robot() -> None:
-    """The dead one may be carried off, and the other goes on: it touched who rested there."""
+@pytest.mark.parametrize("others", [0, 1])
+def test_nobody_rests_in_the_way_of_one_that_waits_for_a_dead_robot(others: int) -> None:
+    """The dead one may be carried off, and the other goes on: it touched who rested there.
+
+    Once another had joined, it was taken never to come (found by strange_fleet_runs.py: 912667).
+    """
     drive = start(*CROSS)
     while drive.place["r0"] < 20.0:
         drive.step()
     drive.take(drive.nav.dead("r0", drive.place["r0"]))
     assert drive.nav.blocked == {"r1": "r0"}
+    for _ in range(others):
+        drive.take(drive.nav.with_robot(member("far", {"start": [60, 40], "goal": [70, 40]})))
     drive.take(drive.nav.with_robot(member("new", {"start": [30, 10], "goal": [20, 10]})))
     assert drive.nav.blocked == {"r1": "r0", "new": "r1"}
     drive.until(60.0, dead=("r0",))

@@ -14,7 +14,7 @@ import numpy as np
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.order_flow import expected_shifts
+from viaspline.kernels.fleet.order_flow import expected_shifts, order_flow
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 
 
@@ -35,7 +35,7 @@ def expected_laws(
         chosen: Whose laws are asked for; the others have those that they had, (k,). None: all.
     """
     orders, packed = state.orders.packed, state.packed
-    shift, _ = expected_shifts(orders, packed.leaders, state.sequence, packed.head, packed.begin)
+    shift = _shifts(state)
     alone, courses, stuck = fleet.alone, fleet.courses.packed, state.stuck(leaves)
     drives = np.flatnonzero(~state.out)
     asked = drives if chosen is None else np.intersect1d(drives, chosen)
@@ -62,6 +62,22 @@ def expected_laws(
         arrived = arrive[last] + fleet.rides.stays[last]
         leave[last] = arrived if fleet.rides.vanishes[robot] else np.inf
     return PackedLaws(arrive, leave, speed, ~state.out)
+
+
+def _shifts(state: FleetProgressState) -> Floats:
+    """When each robot would have set out to pass a bar when it does, without waits [s], (bars,).
+
+    Whoever never gets on is taken to be carried off: the sequence of the state may end before what
+    is behind it, and those who wait there would come never.
+    """
+    orders, packed, out = state.orders.packed, state.packed, state.packed.fixed
+    sequence, head, begin = state.sequence, packed.head, packed.begin
+    if out.any():
+        gone = np.where(out, np.inf, packed.progress)
+        sequence, _ = order_flow(orders, packed.leaders, gone, head, out)
+        head, begin = np.where(out, orders.first[1:], head), np.where(out, -np.inf, begin)
+    shift: Floats = expected_shifts(orders, packed.leaders, sequence, head, begin)[0]
+    return shift
 
 
 def _last_arrival(fleet: DrivenFleet, state: FleetProgressState, shift: Floats) -> float:
