@@ -16,6 +16,7 @@ import numpy as np
 
 from viaspline.errors import GaveUpError
 from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet.fleet_motion import EVEN_SHARE
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.space.meeting.gap_of_bodies import (
     BodyPair,
@@ -60,7 +61,7 @@ class _FlownStages:
         begins: When each begins [s], (m,).
         place: Where it begins [m], (m, 3).
         way: To where it ends [m], (m, 3).
-        speed: As a share of the way, when it begins [1/s], (m,).
+        speed: As a share of the way, when it begins [1/s], (m,); see ``DriveStage``.
         rise: By how much that grows [1/s²], (m,).
         error: How far the robot is from there, at most [m], (m,).
         there: Whether it is there at all, (m,).
@@ -80,7 +81,7 @@ class _FlownStages:
         late = np.maximum(times - self.begins[stages], 0.0)
         late = np.where(np.isfinite(late), late, 0.0)
         share = (self.speed[stages] + 0.5 * self.rise[stages] * late) * late
-        share = np.where(times >= self.ends[stages], 1.0, np.clip(share, 0.0, 1.0))
+        share = np.where(times >= self.ends[stages], 1.0, share)
         return np.asarray(self.place[stages] + share[:, None] * self.way[stages])
 
     def bends(self, stages: Ints) -> Floats:
@@ -126,11 +127,10 @@ def _stages_of(courses: SpatialCourses, laws: PackedLaws, robot: int) -> _FlownS
     goes = (lasts > 0.0) & (length > 0.0) & np.isfinite(lasts)
     within = np.where(goes, lasts, 1.0)
     long = np.where(goes, length, 1.0)
+    farther = length - 0.5 * (speed[1:] + speed[:-1]) * within
     rise = np.where(goes, np.diff(speed) / within / long, 0.0)
-    start = np.where(goes, speed[:-1] / long, 0.0)
-    error = packed.bow[nodes][:-1] + np.where(
-        goes, np.abs(length - 0.5 * (speed[1:] + speed[:-1]) * within), 0.0
-    )
+    start = np.where(goes, (speed[:-1] + farther / within) / long, 0.0)
+    error = packed.bow[nodes][:-1] + np.where(goes, EVEN_SHARE * np.abs(farther), 0.0)
     count = len(place)
 
     def woven(stays: Floats, ways: Floats) -> Floats:
