@@ -207,14 +207,28 @@ def moving_faults(asked: Asked, plan: dict[str, Any], spans: np.ndarray) -> Faul
 
 
 def distance_by_law(law: dict[str, Any], times: np.ndarray) -> np.ndarray:
-    """Distances at times by nodes with an even acceleration between them [m]."""
+    """Distances at times by nodes [m].
+
+    Between them the acceleration is even, or changes evenly with the distance (c) or with time (j):
+    x" = a + c x has the solution of an oscillator that is let go, or driven apart.
+    """
     t, s, v, a = (
         np.array(law[key], float)
         for key in ("times_s", "distances_m", "speeds_mps", "accelerations_mps2")
     )
+    c, j = (
+        np.zeros(len(a)) if law.get(key) is None else np.array(law[key], float)
+        for key in ("changes_1ps2", "jerks_mps3")
+    )
     piece = np.clip(np.searchsorted(t, times, side="right") - 1, 0, len(a) - 1)
     since = np.minimum(times, t[-1]) - t[piece]
-    return s[piece] + v[piece] * since + 0.5 * a[piece] * since**2
+    v, a, c, j = v[piece], a[piece], c[piece], j[piece]
+    gone = v * since + 0.5 * a * since**2 + j * since**3 / 6.0
+    bends = np.abs(c) * since**2 > 1e-9
+    root = np.sqrt(np.abs(np.where(bends, c, 1.0)))
+    first = np.where(c > 0.0, np.sinh(root * since), np.sin(root * since)) / root
+    other = np.where(c > 0.0, np.cosh(root * since), np.cos(root * since)) - 1.0
+    return s[piece] + np.where(bends, v * first + a * other / np.where(bends, c, 1.0), gone)
 
 
 def side_faults(asked: Asked, plan: dict[str, Any], sampled: tuple) -> Faults:
