@@ -106,9 +106,9 @@ def _meet_seldom() -> None:
     walled = World([rock], bounds=(0.0, -1.0, 10.0, 2.0))
     bottleneck_between(walled, np.array([1.0, 0.0]), np.array([9.0, 0.0]), 2.0)
     ends = np.array([[0.0, 0.0, 0.0, 0.0, np.nan, 0.5], [3.0, 1.0, 0.0, 0.0, np.nan, 0.5]])
-    legs = (HeadingLeg(ends, np.array([1.0]), np.array([0.0, 2.0])),)
+    legs = (HeadingLeg(ends, np.array([0, 1]), np.array([1.0]), np.array([0.0, 2.0])),)
     costs = costs_between(legs, Requirements(radius=0.3, clearance=0.1))
-    posed(legs, costs, closed=False, lay=lambda leg, bends: None, max_rows=2, max_pairs=2)
+    posed(legs, costs, closed=False, lay=lambda bends: None, max_rows=2, max_pairs=2)
     line = Path([[[0, 0], [10, 0], [20, 0], [30, 0]]], vias=[])
     motion = {"from": (15, -8), "velocity_mps": (0, 1)}
     cart = Obstacle(circle={"center": (0, 0), "radius": 1}, motion=motion)

@@ -17,9 +17,10 @@ from viaspline.planning.problem.method import Found, GaveUp, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.routing.path_problem import PathProblem
-from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
+from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.hybrid_astar.pose_search import SEARCH_EFFORTS
 from viaspline.planning.turning.turn_path import OVERSHOOT
+from viaspline.planning.turning.turn_problem import TurnProblem
 
 PEN = [[[-2, -2], [8, -2], [8, -1.6], [-2, -1.6]], [[-2, 1.6], [8, 1.6], [8, 2], [-2, 2]],
        [[8, -2], [8.4, -2], [8.4, 2], [8, 2]]]  # fmt: skip

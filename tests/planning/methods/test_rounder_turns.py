@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import viaspline as vs
 from viaspline.planning.methods import ordered
 from viaspline.planning.methods.bent_gently import BentGently
-from viaspline.planning.methods.ordered import FEW_HEADINGS
+from viaspline.planning.methods.ordered import NEARBY_HEADINGS
 from viaspline.planning.methods.rounder_turns import RounderTurns
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
 
@@ -68,7 +68,9 @@ def test_what_is_round_or_on_its_lane_is_left_as_it_is() -> None:
         def lay(self, problem: object, bound: float = math.inf) -> Any:
             raise AssertionError("nothing is sharp")
 
-    assert RounderTurns(TurnsOnShortest(), FEW_HEADINGS) in ordered.DISC_METHODS[1].method.methods
+    assert (
+        RounderTurns(TurnsOnShortest(), NEARBY_HEADINGS) in ordered.DISC_METHODS[1].method.methods
+    )
     open_way = beside_a_wall(3.0, 4.0, 0.0)
     method = RounderTurns(TurnsOnShortest(), Never())
     with pytest.MonkeyPatch.context() as patch:

@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 
 from viaspline.planning.problem.method import Found, GaveUp, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
-from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
+from viaspline.planning.turning.driven_problem import DrivenProblem
+from viaspline.planning.turning.turn_problem import TurnProblem
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,8 @@ from viaspline.planning.problem.work_budget import GAPS_OBSTACLE_S, GAPS_S
 from viaspline.planning.routing.bottleneck import Bottleneck, body_bottleneck, gaps_for_body
 from viaspline.planning.routing.gap_graph import GapGraph, is_soon_made
 from viaspline.planning.routing.leg_refusals import explain_narrow_leg
-from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
+from viaspline.planning.turning.driven_problem import DrivenProblem
+from viaspline.planning.turning.turn_problem import TurnProblem
 
 
 @dataclass(frozen=True)

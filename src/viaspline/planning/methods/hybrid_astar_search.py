@@ -11,12 +11,13 @@ import numpy as np
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.work_budget import WorkBudget
-from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
+from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.hybrid_astar.pose_search import SEARCH_EFFORTS, Effort
 from viaspline.planning.turning.hybrid_astar.search_outcome import NotFound
 from viaspline.planning.turning.hybrid_astar.via_route import via_route_chains
 from viaspline.planning.turning.laid_turns import through_spans
 from viaspline.planning.turning.turn_path import RAMP
+from viaspline.planning.turning.turn_problem import TurnProblem
 
 
 @dataclass(frozen=True)

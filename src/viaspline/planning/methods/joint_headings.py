@@ -6,15 +6,15 @@ Tested through ``planning/test_plan_path``.
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
-from functools import partial
 
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
-from viaspline.planning.turning.driven_problem import TurnProblem
-from viaspline.planning.turning.headings import HEADING_COUNT, costs_between, legs_of, posed
+from viaspline.planning.turning.headings import HEADING_COUNT, Poses, costs_between, posed
 from viaspline.planning.turning.laid_turns import through_turns
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
+from viaspline.planning.turning.turn_problem import TurnProblem
 
 
 @dataclass(frozen=True)
@@ -36,20 +36,32 @@ class JointHeadings:
 
     def lay(self, problem: TurnProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
         """See ``Method``."""
-        path = problem.path
-        bound = path.requirements.objective.metres(bound)
-        bends = path.bends.turning(problem.rho)
-        legs = legs_of(bends, problem.spots, self.headings, path.walls)
-        closed = path.bends.closed
-        costs = costs_between(legs, path.requirements)
-        as_it_is, pushed = (
-            partial(path.leg_on_sides, lay=lay) for lay in (turn_path_if_clear, clear_turn_path)
-        )
-        poses = posed(legs, costs, closed, as_it_is, self.max_rows, self.max_rows, bound)
-        if poses is None:
-            rows, pairs = self.max_pushed_rows, self.max_pushed_pairs
-            poses = posed(legs, costs, closed, pushed, rows, pairs, bound)
+        poses = self.poses(problem, problem.vias, bound)
         if poses is None:
             return GaveUp((f"{self.max_rows} rows of headings at the via points",))
+        path = problem.path
         spline_path = through_turns(path.sequence, poses.turn_paths)
         return Found(spline_path, path.cost(spline_path))
+
+    def poses(
+        self, problem: TurnProblem, sought: Collection[int], bound: float = math.inf
+    ) -> Poses | None:
+        """The best row of headings at some via points, None if there is none.
+
+        Args:
+            problem: What is asked.
+            sought: The via points; at the others headings come to be as they are.
+            bound: Only what costs less is of use [m or s].
+        """
+        needs, closed = problem.path.requirements, problem.path.sequence.closed
+        bound = needs.objective.metres(bound)
+        legs = problem.heading_legs(sought, self.headings)
+        costs = costs_between(legs, needs)
+        rows, pairs = self.max_rows, self.max_rows
+        for lay in (turn_path_if_clear, clear_turn_path):
+            on_sides = problem.on_sides(lay)
+            found = posed(legs, costs, closed, on_sides, rows, pairs, bound)
+            if found is not None:
+                return found
+            rows, pairs = self.max_pushed_rows, self.max_pushed_pairs
+        return None

@@ -17,10 +17,10 @@ from viaspline.planning.alternatives.homotopy_classes import (
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.bend_row import bends_along
-from viaspline.planning.turning.driven_problem import TurnProblem
 from viaspline.planning.turning.laid_turns import through_turns
 from viaspline.planning.turning.repair import clear_turn_path_or_why
 from viaspline.planning.turning.turn_path import TurnPath
+from viaspline.planning.turning.turn_problem import TurnProblem
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from viaspline.planning.methods.bent_gently import BentGently
 from viaspline.planning.methods.gaps_for_body import GapsForBody
 from viaspline.planning.methods.hybrid_astar_search import HybridAStar
 from viaspline.planning.methods.joint_headings import JointHeadings
+from viaspline.planning.methods.nearby_headings import NearbyHeadings
 from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
 from viaspline.planning.methods.other_sides import OtherSides
 from viaspline.planning.methods.rounder_turns import RounderTurns
@@ -27,11 +28,13 @@ SPLINE_METHODS: tuple[PathMethod, ...] = (SplineLedRound(),)
 """For the paper's curve, and for one that climbs: turns are flat."""
 
 FEW_HEADINGS = JointHeadings(max_rows=200, max_pushed_rows=30, max_pushed_pairs=16, headings=16)
+NEARBY_HEADINGS = NearbyHeadings(FEW_HEADINGS)
 
 DISC_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
     BentGently(OtherSides((
-        RounderTurns(TurnsOnShortest(), FEW_HEADINGS),
+        RounderTurns(TurnsOnShortest(), NEARBY_HEADINGS),
+        RounderTurns(AtRadii((NEARBY_HEADINGS,)), FEW_HEADINGS),
         AtRadii((FEW_HEADINGS,)),
         SplineLedRound(),
     ))),
@@ -41,7 +44,7 @@ DISC_METHODS: tuple[PathMethod, ...] = (
 BODY_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
     BentGently(OtherSides((
-        RounderTurns(TurnsOnShortest(), FEW_HEADINGS),
+        RounderTurns(TurnsOnShortest(), NEARBY_HEADINGS),
         AtRadii((
             NextHomotopyClasses(),
             JointHeadings(),

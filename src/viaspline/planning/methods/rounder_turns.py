@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from viaspline.planning.problem.method import Found, Method, Outcome
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
+from viaspline.planning.turning.driven_problem import DrivenProblem
+from viaspline.planning.turning.turn_problem import TurnProblem
 
 MOST_LONGER = 1.1  # what round turns may cost, over what sharper ones do
 

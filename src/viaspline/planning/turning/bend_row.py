@@ -90,6 +90,35 @@ class Bends:
         last = int(vias.sum()) - (1 if self.closed else 2)
         return min(int(vias[: k + 1].sum()) - 1, last)
 
+    def vias_about(self, line: int) -> frozenset[int]:
+        """The via points at the ends of a line, k from bend k on; those of its leg if none are."""
+        return self.vias_at(line, line + 1) or self._ends_of_leg(line)
+
+    def vias_of(self, row: int) -> frozenset[int]:
+        """The via point that a bend is; those of its leg if it is none."""
+        return self.vias_at(row) or self._ends_of_leg(row)
+
+    def vias_at(self, *rows: int) -> frozenset[int]:
+        """Those of some bends that are via points."""
+        vias = (int(self.vias[row % len(self.rows)]) for row in rows)
+        return frozenset(via for via in vias if via != DETOUR)
+
+    def _ends_of_leg(self, row: int) -> frozenset[int]:
+        """The via points before and after a bend."""
+        at_vias = np.flatnonzero(self.vias != DETOUR)
+        after = int(np.searchsorted(at_vias, row, side="right"))
+        return self.vias_at(at_vias[after - 1], at_vias[after % len(at_vias)])
+
+    def between(self, first: int, last: int) -> Ints:
+        """Where in the row the bends from one via point to another stand, of a round past its end.
+
+        From a via point to itself that is all of the round.
+        """
+        begin, end = self.places(first), self.places(last)
+        if begin < end:
+            return np.arange(begin, end + 1)
+        return np.concatenate((np.arange(begin, len(self.rows)), np.arange(end + 1)))
+
     def places(self, via: int) -> int:
         """Where in the row a via point of the sequence stands."""
         return int(np.flatnonzero(self.vias == via)[0])

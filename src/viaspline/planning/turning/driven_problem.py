@@ -6,7 +6,7 @@ Tested through ``planning/methods/test_ordered``.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import tee
@@ -116,18 +116,3 @@ class DrivenProblem(TurningProblem):
             self.requirements.recalled(asked, partial(self.ideal_time, self.sequence, bends))
             < bound
         )
-
-
-@dataclass(frozen=True)
-class TurnProblem:
-    """A path that is asked for, with turns that are nowhere sharper than a radius.
-
-    Attributes:
-        path: What is to be driven.
-        rho: The least radius [m].
-        spots: The via points at which the robot may turn on the spot instead.
-    """
-
-    path: DrivenProblem
-    rho: float
-    spots: Collection[int]

@@ -15,38 +15,44 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
-from types import MappingProxyType
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.turning.heading_costs import cheapest, leg_lengths
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import HEADING_PAIR_BEND_S, HEADING_PAIR_BENDS_S
 from viaspline.planning.turning.bend_row import DETOUR, HEADING, SIDE, Bends
 from viaspline.planning.turning.turn_path import RAMP, TurnPath
 
-Lay = Callable[[int, Bends], TurnPath | None]  # a leg, and its bends
+Lay = Callable[[Bends], TurnPath | None]  # of a leg with headings at its ends
 
 HEADING_COUNT = 36  # that are tried at a via point
 STARTS_AT_ONCE = 6  # of the headings of a leg, of which a search is stopped no sooner than after
-NO_WALLS: Mapping[int, float] = MappingProxyType({})
+APART_BENDS = 4  # of a leg, ends among them, from which on its ends know nothing of each other
 FINER_TURNS = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
 
 
 @dataclass(frozen=True)
 class HeadingLeg:
-    """What lies between two via points of a row of bends.
+    """What lies between two via points of a row of bends, one or more legs.
 
     Attributes:
-        rows: Its bends, the via points among them, (n, 6).
+        rows: Its bends, the via points at its ends among them, (n, 6).
+        vias: The via point of each as in ``Bends``, (n,).
         starts: The headings at its start [rad], (k,); a NaN is free.
         goals: The headings at its goal [rad], (l,).
     """
 
     rows: Floats
+    vias: Ints
     starts: Floats
     goals: Floats
+
+    @property
+    def inner_vias(self) -> frozenset[int]:
+        """The via points between its ends, whose headings are left as they come to be."""
+        return frozenset(self.vias[1:-1][self.vias[1:-1] != DETOUR].tolist())
 
     def lengths(self) -> Floats:
         """See ``kernels.turning.heading_costs.leg_lengths``."""
@@ -54,13 +60,11 @@ class HeadingLeg:
         return found
 
     def between(self, start: float, goal: float) -> Bends:
-        """Its bends with headings at both ends [rad]; these are via points 0 and 1 of its own."""
+        """Its bends with headings at both ends [rad]."""
         rows = self.rows.copy()
         rows[[0, -1], HEADING] = start, goal
         rows[[0, -1], SIDE] = 0.0
-        vias = np.full(len(rows), DETOUR)
-        vias[[0, -1]] = 0, 1
-        return Bends.free(rows, vias)
+        return Bends.free(rows, self.vias)
 
 
 @dataclass(frozen=True)
@@ -84,28 +88,31 @@ class Poses:
 def legs_of(
     bends: Bends,
     spots: Collection[int],
-    count: int = HEADING_COUNT,
-    walls: Mapping[int, float] = NO_WALLS,
+    sought: Collection[int],
+    count: int,
+    walls: Mapping[int, float],
 ) -> tuple[HeadingLeg, ...]:
-    """The legs of a row of bends.
+    """The legs of a row of bends; of a closed one the first begins where the last one ends.
 
     Args:
         bends: The row.
         spots: Via points at which the robot may turn on the spot.
+        sought: The other via points whose headings are chosen, which part the legs; at the rest a
+            turn is as it comes to be. A round has one at least.
         count: Headings that are tried at a via point.
         walls: The headings of walls that via points lie close beside, which are among those [rad].
     """
-    vias = bends.closed + int(bends.vias.max()) + 1
-    places = [bends.places(via) for via in range(vias - bends.closed)]
-    rows = bends.rows
+    vias = int(bends.vias.max()) + 1
+    ends = set() if bends.closed else {0, vias - 1}
+    cut = sorted(ends | set(spots) | set(sought))
     if bends.closed:
-        rows = np.vstack((rows, rows[:1]))
-        places.append(len(rows) - 1)
-    headings = [_headings(bends, via, vias, spots, count, walls) for via in range(vias)]
-    return tuple(
-        HeadingLeg(rows[a : b + 1].copy(), headings[k], headings[k + 1])
-        for k, (a, b) in enumerate(pairwise(places))
-    )
+        cut.append(cut[0])
+    headings = [_headings(bends, via, vias, spots, count, walls) for via in cut]
+    legs = []
+    for k, (first, last) in enumerate(pairwise(cut)):
+        rows = bends.between(first, last)
+        legs.append(HeadingLeg(bends.rows[rows], bends.vias[rows], headings[k], headings[k + 1]))
+    return tuple(legs)
 
 
 def _headings(
@@ -116,7 +123,6 @@ def _headings(
     is_end = not bends.closed and via in (0, vias - 1)
     if is_end:
         return bends.rows[[bends.places(via)], HEADING]
-    via %= vias - bends.closed
     if via in spots:
         return np.array([math.nan])
     return walls.get(via, 0.0) + np.arange(count, dtype=np.float64) * (math.tau / count)
@@ -135,15 +141,39 @@ def costs_between(legs: Sequence[HeadingLeg], requirements: Requirements) -> Flo
     most = max(len(ends) for leg in legs for ends in (leg.starts, leg.goals))
     costs = np.full((len(legs), most, most), np.inf)
     for k, leg in enumerate(legs):
-        for first in range(0, len(leg.starts), STARTS_AT_ONCE):
-            some = replace(leg, starts=leg.starts[first : first + STARTS_AT_ONCE])
-            lengths = requirements.once(
-                ("lengths", some.rows.tobytes(), some.starts.tobytes(), some.goals.tobytes()),
-                partial(_paid_lengths, some, requirements),
-            )
-            until = first + len(some.starts)
-            costs[k, first:until, : len(leg.goals)] = lengths.min(axis=(2, 3))
+        between = _end_by_end if len(leg.rows) >= APART_BENDS else _pair_by_pair
+        costs[k, : len(leg.starts), : len(leg.goals)] = between(leg, requirements)
     return costs
+
+
+def _pair_by_pair(leg: HeadingLeg, requirements: Requirements) -> Floats:
+    """How long a leg is from each heading to each other one [m], (k, l)."""
+    starts = leg.starts
+    parts = [starts[k : k + STARTS_AT_ONCE] for k in range(0, len(starts), STARTS_AT_ONCE)]
+    return np.vstack([_lengths(replace(leg, starts=some), requirements) for some in parts])
+
+
+def _end_by_end(leg: HeadingLeg, requirements: Requirements) -> Floats:
+    """How long a leg is whose ends know nothing of each other's heading [m], (k, l).
+
+    That is so of a leg with much between them, but for a loop now and then; what is laid tells it.
+    """
+    free = np.array([math.nan])
+    least = _lengths(replace(leg, starts=free, goals=free), requirements)
+    if not np.isfinite(least).all():  # there is no room between what lies inside
+        return np.full((len(leg.starts), len(leg.goals)), math.inf)
+    begun = _lengths(replace(leg, goals=free), requirements)
+    ended = _lengths(replace(leg, starts=free), requirements)
+    return begun + ended - least
+
+
+def _lengths(leg: HeadingLeg, requirements: Requirements) -> Floats:
+    """How long a leg is, to the better sides, from each heading to each other one [m], (k, l)."""
+    found = requirements.once(
+        ("lengths", leg.rows.tobytes(), leg.starts.tobytes(), leg.goals.tobytes()),
+        partial(_paid_lengths, leg, requirements),
+    )
+    return found.min(axis=(2, 3))
 
 
 def _paid_lengths(leg: HeadingLeg, requirements: Requirements) -> Floats:
@@ -190,7 +220,7 @@ def posed(
             return _finer(Poses(ends, tuple(spline_path[key] for key in keys)), legs, closed, lay)
         for key in new:
             leg = legs[key[0]]
-            turn_path = lay(key[0], leg.between(leg.starts[key[1]], leg.goals[key[2]]))
+            turn_path = lay(leg.between(leg.starts[key[1]], leg.goals[key[2]]))
             costs[key] = math.inf if turn_path is None else turn_path.length
             if turn_path is not None:
                 spline_path[key] = turn_path
@@ -225,7 +255,7 @@ def _turned(
         headings[-1] = headings[0]
     turn_paths = list(poses.turn_paths)
     for leg in {k, (k - 1) % len(legs) if closed else max(k - 1, 0)}:
-        turn_path = lay(leg, legs[leg].between(headings[leg], headings[leg + 1]))
+        turn_path = lay(legs[leg].between(headings[leg], headings[leg + 1]))
         if turn_path is None:
             return None
         turn_paths[leg] = turn_path

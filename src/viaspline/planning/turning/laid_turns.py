@@ -22,22 +22,23 @@ def through_turns(sequence: ViaSequence, turn_paths: Sequence[TurnPath]) -> Spli
 
     Args:
         sequence: The via points.
-        turn_paths: One that leads through all of them, or one for each leg.
+        turn_paths: One that leads through all of them, or some that follow each other; those of a
+            round begin at any via point.
     """
-    joints, detours, first = [], [], 0
+    joints: list[int] = []
+    detours: list[int] = []
+    first = 0
     for turn_path in turn_paths:
-        vias = turn_path.bends.vias
-        if len(turn_paths) > 1:
-            joints.append(first)
-            detours += (first + turn_path.begins[1:-1]).tolist()
-        else:
-            begins = turn_path.begins[: len(vias)]
-            joints = begins[vias != DETOUR].tolist()
-            detours = begins[vias == DETOUR].tolist()
+        vias = turn_path.bends.vias if turn_path.bends.closed else turn_path.bends.vias[:-1]
+        begins = first + turn_path.begins[: len(vias)]
+        joints += begins[vias != DETOUR].tolist()
+        detours += begins[vias == DETOUR].tolist()
         first += len(turn_path.spans)
-    if len(joints) < len(sequence.vias) + sequence.closed:
-        joints.append(first)
     spans = np.concatenate([turn_path.spans for turn_path in turn_paths])
+    seam = joints[-int(turn_paths[0].bends.vias[0])] if sequence.closed else 0
+    spans = np.roll(spans, -seam, axis=0)
+    joints = [*sorted((u - seam) % first for u in joints), first]
+    detours = sorted((u - seam) % first for u in detours)
     return through_spans(sequence, spans, np.array(joints), detours)
 
 

@@ -45,9 +45,11 @@ class Stuck:
         places: Finds the places where it got stuck, with what may be spent on that: of each the
             leg, and what its taut path goes by there [m], (2,). A later step of a search has a
             budget of its own.
+        vias: Finds the via points about all such places.
     """
 
     places: Callable[[Requirements], tuple[tuple[int, Floats], ...]]
+    vias: Callable[[Requirements], frozenset[int]]
 
 
 def clear_turn_path(
@@ -130,7 +132,7 @@ def _pushed_clear(
     for left in reversed(range(MAX_PUSH_ROUNDS)):
         spent = requirements.spent
         if isinstance(turn_path, NoTurnPath):
-            return Stuck(partial(_between, turn_path))
+            return Stuck(partial(_between, turn_path), partial(_vias_between, turn_path))
         close = body_conflicts(world, turn_path.spans, requirements)
         if (close == CLEAR).all():
             return turn_path
@@ -146,13 +148,19 @@ def _pushed_clear(
                 requirements.spend(cost)
             break
         if isinstance(pushed, NoTurnPath) or ramp < LEAST_RAMP:
-            return Stuck(partial(_first_too_close, turn_path, close, world))
+            return _too_close(turn_path, close, world)
         turn_path = pushed
     assert isinstance(turn_path, TurnPath)
     close = body_conflicts(world, turn_path.spans, requirements)
     if (close == CLEAR).all():
         return turn_path
-    return Stuck(partial(_first_too_close, turn_path, close, world))
+    return _too_close(turn_path, close, world)
+
+
+def _too_close(turn_path: TurnPath, close: NDArray[np.int64], world: World) -> Stuck:
+    """Where some spans of a turn path are too close."""
+    where = partial(_first_too_close, turn_path, close, world)
+    return Stuck(where, partial(_vias_too_close, turn_path, close, world))
 
 
 def _are_one(first: TurnPath, second: TurnPath) -> bool:
@@ -184,10 +192,27 @@ def _first_too_close(
     turn_path: TurnPath, close: NDArray[np.int64], world: World, requirements: Requirements
 ) -> tuple[tuple[int, Floats], ...]:
     """Where the first run of spans is too close."""
-    hit = np.flatnonzero(close != CLEAR)
-    run = np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)[0]
-    tight = tightest_place(turn_path.spans, run, world, requirements)
+    tight = tightest_place(turn_path.spans, _runs(close)[0], world, requirements)
     return ((turn_path.bends.leg_of(_row_before(turn_path, tight.u)), tight.wall),)
+
+
+def _vias_between(failed: NoTurnPath, _: Requirements) -> frozenset[int]:
+    """The via points about the lines on which there is no room for turns."""
+    return frozenset().union(*map(failed.bends.vias_about, failed.lines.tolist()))
+
+
+def _vias_too_close(
+    turn_path: TurnPath, close: NDArray[np.int64], world: World, requirements: Requirements
+) -> frozenset[int]:
+    """The via points about the tightest place of each run of spans that is too close."""
+    places = (tightest_place(turn_path.spans, run, world, requirements) for run in _runs(close))
+    return frozenset().union(*(turn_path.vias_about(tight.u) for tight in places))
+
+
+def _runs(close: NDArray[np.int64]) -> list[NDArray[np.intp]]:
+    """The spans that are too close, those as one that follow each other."""
+    hit = np.flatnonzero(close != CLEAR)
+    return np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)
 
 
 def _pushed(
@@ -195,9 +220,7 @@ def _pushed(
 ) -> Bends:
     """The bends with one more, or a wider one, for every run of spans that is too close."""
     bends = turn_path.bends
-    hit = np.flatnonzero(close != CLEAR)
-    runs = np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)
-    for run in reversed(runs):  # from the end, so that the earlier indices stay
+    for run in reversed(_runs(close)):  # from the end, so that the earlier indices stay
         bends = _push(bends, turn_path, run, world, requirements)
     return bends
 

@@ -44,6 +44,17 @@ class TurnPath:
     turns: Floats
     length: float
 
+    def vias_about(self, u: float) -> frozenset[int]:
+        """The via point that is next to a parameter of the curve, if a bend that is one is.
+
+        Of others those about its line: see ``Bends.vias_about``.
+        """
+        line = int(np.searchsorted(self.begins[: len(self.left)], u, side="right")) - 1
+        first, last = self.begins[line], self.begins[(line + 1) % len(self.begins)]
+        along = np.hypot(*(self.spans[first:last, 3] - self.spans[first:last, 0]).T)
+        before = float(along[: int(u) - first].sum()) < 0.5 * float(along.sum())
+        return self.bends.vias_at(line if before else line + 1) or self.bends.vias_about(line)
+
 
 @dataclass(frozen=True, eq=False)
 class SettledTurns:

@@ -20,10 +20,11 @@ from viaspline.planning.routing.side_refusals import (
     sides_in_words,
 )
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.headings import Poses, costs_between, legs_of, posed
+from viaspline.planning.turning.headings import HEADING_COUNT, Poses, costs_between, posed
 from viaspline.planning.turning.laid_turns import through_turns
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_path import OVERSHOOT
+from viaspline.planning.turning.turn_problem import TurnProblem
 
 RADIUS_PARTS = (0.9, 0.7, 0.5, 0.3, 0.15)  # of the radius that are tried as a remedy
 CLEARANCE_PARTS = (0.5, 0.0)  # of the clearance that are tried as a remedy
@@ -148,10 +149,10 @@ def _serves(problem: DrivenProblem, radius: float) -> bool:
 
 def _poses(problem: DrivenProblem, rho: float) -> Poses | None:
     """Headings and turns of at least a radius [m] along the shortest way, if any are clear."""
-    lay = partial(problem.leg_on_sides, lay=turn_path_if_clear)
-    legs = legs_of(problem.bends.turning(rho), problem.spots)
-    closed = problem.sequence.closed
+    turns = TurnProblem(problem, rho, problem.spots)
+    legs = turns.heading_legs(turns.vias, HEADING_COUNT)
     costs = costs_between(legs, problem.requirements)
+    lay, closed = turns.on_sides(turn_path_if_clear), problem.sequence.closed
     return posed(legs, costs, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS)
 
 

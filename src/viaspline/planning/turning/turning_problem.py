@@ -6,7 +6,6 @@ Tested through ``planning/methods/test_ordered``.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -22,7 +21,6 @@ from viaspline.planning.alternatives.unrouted_leg import unrouted
 from viaspline.planning.checking.conflicts import is_clear
 from viaspline.planning.checking.driving_time import driving_time, leg_time
 from viaspline.planning.problem.method import Found, GaveUp, Refusal
-from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.routing.asked_sides import AskedSides
@@ -36,7 +34,6 @@ from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.short_turns import short_turn_path
 from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
 from viaspline.planning.turning.wide_turns import WideTurns
-from viaspline.world.world import World
 
 # Radii of turns for a long body without a turning circle, wide ones first, in required distances.
 FREE_TURN_RADII = (3.0, 1.5)
@@ -47,8 +44,6 @@ LEAST_REQUIRED_M = 1e-3  # that these are of
 BESIDE_WALL = 0.25  # beyond the required distance, in such distances: a via point is beside a wall
 GRADIENT_STEP = 1e-3  # of the required distance, about a place, to tell the heading of its wall
 AXES = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
-
-LayTurns = Callable[[Bends, World, Requirements], TurnPath | None]
 
 
 @dataclass(frozen=True)
@@ -264,19 +259,6 @@ class TurningProblem(PathProblem):
             return lay(bends.turning(rho), self.world, self.requirements)
         turns = self.wide_turns(rho)
         return soonest_end_turns(turns, bends, self.world, self.requirements, rests)
-
-    def leg_on_sides(self, leg: int, bends: Bends, lay: LayTurns) -> TurnPath | None:
-        """The turn path of one leg, if it keeps clear and to the sides that are asked for.
-
-        Args:
-            leg: The leg.
-            bends: Its bends.
-            lay: Lays a clear turn path round bends, if it can.
-        """
-        turn_path = lay(bends, self.world, self.requirements)
-        if turn_path is None or self.sides[leg].crossed(turn_path.spans).any():
-            return None
-        return turn_path
 
 
 def _shortest(leg: LegSearch) -> TautPath:

@@ -1,0 +1,52 @@
+"""Turns with headings at those via points alone about which they have no room without.
+
+At all via points together headings take long to choose; at most of them the turn that a path makes
+of itself, with half of it before the via point and half behind it, is as good as any.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.planning.methods.joint_headings import JointHeadings
+from viaspline.planning.problem.method import Found, GaveUp
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.turning.headings import costs_between
+from viaspline.planning.turning.laid_turns import through_turns
+from viaspline.planning.turning.turn_problem import TurnProblem
+
+
+@dataclass(frozen=True)
+class NearbyHeadings:
+    """Lays turns between headings where turns that come of themselves are too tight.
+
+    Attributes:
+        headings: Chooses them, and says how many are tried.
+    """
+
+    headings: JointHeadings
+
+    def lay(self, problem: TurnProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
+        """See ``Method``."""
+        sought = self._sought(problem)
+        poses = self.headings.poses(problem, sought, bound) if sought else None
+        if poses is None:
+            return GaveUp(("headings at the via points about what is tight",))
+        spline_path = through_turns(problem.path.sequence, poses.turn_paths)
+        return Found(spline_path, problem.path.cost(spline_path))
+
+    def _sought(self, problem: TurnProblem) -> frozenset[int]:
+        """Where headings are sought: as well where there are no turns between those otherwise."""
+        sought, more = frozenset[int](), problem.tight_vias
+        while more:
+            sought |= more
+            legs = problem.heading_legs(sought, self.headings.headings)
+            costs = costs_between(legs, problem.path.requirements)
+            none = ~np.isfinite(costs).any(axis=(1, 2))
+            more = frozenset().union(
+                *(leg.inner_vias for leg, is_none in zip(legs, none, strict=True) if is_none)
+            )
+        return sought

@@ -1,0 +1,84 @@
+"""The problem of turns that are nowhere sharper than a radius.
+
+Tested through ``planning/methods/test_ordered``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+import numpy as np
+
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.turning.bend_row import DETOUR, Bends
+from viaspline.planning.turning.driven_problem import LOOP_RAD, DrivenProblem
+from viaspline.planning.turning.headings import HeadingLeg, legs_of
+from viaspline.planning.turning.repair import Stuck, clear_turn_path_or_why
+from viaspline.planning.turning.turn_path import TurnPath
+from viaspline.world.world import World
+
+LayTurns = Callable[[Bends, World, Requirements], TurnPath | None]
+
+
+@dataclass(frozen=True)
+class TurnProblem:
+    """A path that is asked for, with turns that are nowhere sharper than a radius.
+
+    Attributes:
+        path: What is to be driven.
+        rho: The least radius [m].
+        spots: The via points at which the robot may turn on the spot instead.
+    """
+
+    path: DrivenProblem
+    rho: float
+    spots: Collection[int]
+
+    @property
+    def vias(self) -> range:
+        """All of its via points."""
+        return range(len(self.path.sequence.vias))
+
+    @property
+    def bends(self) -> Bends:
+        """What its turns go round, with their radius."""
+        return self.path.bends.turning(self.rho)
+
+    @cached_property
+    def tight_vias(self) -> frozenset[int]:
+        """The via points about which turns have no room as they come to be, or make loops."""
+        laid = clear_turn_path_or_why(self.bends, self.path.world, self.path.requirements)
+        if isinstance(laid, Stuck):
+            return laid.vias(self.path.requirements)
+        loops = np.flatnonzero(np.abs(laid.turns) > LOOP_RAD).tolist()
+        return frozenset().union(*map(laid.bends.vias_of, loops))
+
+    def heading_legs(self, sought: Collection[int], count: int) -> tuple[HeadingLeg, ...]:
+        """Its legs with so many headings at the ends of each that are via points to be sought at.
+
+        Args:
+            sought: The via points.
+            count: How many.
+        """
+        return legs_of(self.bends, self.spots, sought, count, self.path.walls)
+
+    def on_sides(self, lay: LayTurns) -> Callable[[Bends], TurnPath | None]:
+        """Lays turns round bends from via point to via point, if they keep to the asked sides.
+
+        Args:
+            lay: Lays a clear turn path round bends, if it can.
+        """
+        return partial(self._laid_on_sides, lay)
+
+    def _laid_on_sides(self, lay: LayTurns, bends: Bends) -> TurnPath | None:
+        turn_path = lay(bends, self.path.world, self.path.requirements)
+        if turn_path is None:
+            return None
+        at_vias = np.flatnonzero(turn_path.bends.vias != DETOUR)
+        legs = np.split(turn_path.spans, turn_path.begins[at_vias[1:-1]])
+        sides = [self.path.sides[leg] for leg in turn_path.bends.vias[at_vias[:-1]].tolist()]
+        if any(its.crossed(leg).any() for its, leg in zip(sides, legs, strict=True)):
+            return None
+        return turn_path

@@ -1,0 +1,106 @@
+"""Headings at the via points about what is tight, and the rest of the path as it comes to be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+import viaspline as vs
+from viaspline.curve.bending import is_round
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.planning.methods.clear_spline import ClearSpline
+from viaspline.planning.methods.ordered import FEW_HEADINGS, NEARBY_HEADINGS
+from viaspline.planning.problem.method import Found
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import via_sequence_of
+from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.turning.driven_problem import DrivenProblem
+from viaspline.planning.turning.headings import costs_between
+from viaspline.planning.turning.turn_problem import TurnProblem
+
+RADIUS_M = 0.35
+ROUND = [(-9.0, 3.0), (0.0, 0.7), (-9.0, 0.75), (-14.0, 5.0), (-10.0, 9.0)]
+WALL = {"polygon": [[-12, -2], [12, -2], [12, 0], [-12, 0]]}
+
+
+def turns(places: list[Any], closed: bool, known: list[Any], rho: float) -> TurnProblem:
+    """Turns of at least a radius through places."""
+    ends = {"closed": True, "via": places[1:]}
+    if not closed:
+        ends = {"via": places[1:-1], "goal": places[-1]}
+    mission = vs.Mission.model_validate({
+        "world": {"known": known},
+        "robot": {"radius_m": RADIUS_M, "clearance_m": 0.15, "max_speed_mps": 1.5,
+                  "max_accel_mps2": 0.8, "max_lateral_accel_mps2": 0.6},
+        "route": {"start": places[0], **ends},
+    })  # fmt: skip
+    needs, world = Requirements.of(mission), vs.World.known(mission)
+    asked = PathProblem.of(via_sequence_of(mission), world, needs)
+    path = DrivenProblem(
+        asked.sequence, world, needs, asked.router, cleared=ClearSpline().lay(asked)
+    )
+    return TurnProblem(path, rho, path.spots)
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 4), st.booleans(), st.booleans())
+@example(2, True, False)
+def test_wherever_a_round_begins_one_heading_is_sought_where_it_turns_back_beside_a_wall(
+    first: int, closed: bool, backwards: bool
+) -> None:
+    places = [*ROUND[first:], *ROUND[:first]]
+    tight = places.index(ROUND[1])
+    if not closed and tight in (0, 4):  # it ends there
+        return
+    if backwards:
+        places, tight = places[::-1], 4 - tight
+    problem = turns(places, closed, [WALL], 1.0035 * RADIUS_M)
+    assert problem.tight_vias == {tight}
+    found, among_all = (each.lay(problem) for each in (NEARBY_HEADINGS, FEW_HEADINGS))
+    assert isinstance(found, Found)
+    assert isinstance(among_all, Found)
+    laid = found.value
+    assert laid.length <= 1.02 * among_all.value.length
+    ends = [*places, places[0]] if closed else places
+    vias = [(round(via.u), via.at) for via in laid.vias if via.kind == "user"]
+    assert [at for _, at in vias] == ends
+    for u, at in vias:
+        assert tuple(laid.spans[u, 0] if u < len(laid.spans) else laid.spans[-1, 3]) == at
+    assert is_round(PiecewiseCubic(laid.spans, closed=closed), RADIUS_M)
+    assert vs.certify(PiecewiseCubic(laid.spans), problem.path.world, 0.5).holds
+
+
+def test_where_no_turn_is_tight_no_heading_is_sought() -> None:
+    problem = turns([[0, 3], [9, 3], [9, 9]], False, [WALL], 0.5)
+    assert problem.tight_vias == set()
+    assert not isinstance(NEARBY_HEADINGS.lay(problem), Found)
+
+
+def test_headings_are_sought_as_well_where_others_leave_no_turns() -> None:
+    """Between places nearer to each other than turns through them are long there is none."""
+    close = [[0.0, 0.0], [9.0, 0.0], [9.3, 0.2], [9.0, 0.4], [0.0, 3.0]]
+    problem = turns(close, False, [], 2.0)
+    legs = problem.heading_legs({1}, FEW_HEADINGS.headings)
+    costs = costs_between(legs, problem.path.requirements)
+    assert np.isinf(costs[1]).all()
+    assert legs[1].inner_vias == {2, 3}
+    found = NEARBY_HEADINGS.lay(problem)
+    assert isinstance(found, Found)
+    assert is_round(PiecewiseCubic(found.value.spans), 2.0 / 1.0035)
+
+
+@pytest.mark.parametrize("gap", [4.0, 8.0])
+def test_ends_of_a_leg_with_much_between_know_nothing_of_each_other(gap: float) -> None:
+    """What a leg costs is told by its ends; pair by pair it is the same."""
+    rng = np.random.default_rng(7)
+    places = np.cumsum(np.vstack(([0, 0], rng.uniform((gap, -2), (2 * gap, 2), (4, 2)))), axis=0)
+    problem = turns(places.tolist(), False, [], 0.5)
+    ((leg, _),) = [problem.heading_legs({3}, 16)]
+    needs = problem.path.requirements
+    told = costs_between([leg], needs)[0, : len(leg.starts), : len(leg.goals)]
+    assert len(leg.rows) == 4
+    assert np.allclose(told, leg.lengths().min(axis=(2, 3)), atol=1e-6)
