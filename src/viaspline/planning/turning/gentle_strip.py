@@ -25,6 +25,7 @@ MOST_TENSIONS = 8  # that are tried
 MOST_RESTLESS = 1  # of them, at which places don't come to rest: no more are tried
 MOST_OTHERS = 2  # than the chosen one, that are laid where that can't be driven
 SHARP = 0.5  # of the sharpest curvature, from which on more is dearer
+LIMIT_PARTS = (0.9, 0.6)  # of the sharpest that may be, from which on more is dearer
 LEAST_BLUNTER = 0.01  # of the sharpest curvature, that has to be saved
 SETTLED, NEARLY_SETTLED = 0.02, 0.1  # of what is required: places move by less in the last round
 
@@ -89,13 +90,17 @@ def _promising(strip: TenseStrip, price: RunPrice) -> Iterator[Tried]:
 def _as_fine_as_it_rests(chosen: Tried, price: RunPrice) -> Iterator[TenseStrip]:
     """A strip with its places nearer to each other, then as it was found: that may rest alone.
 
-    Blunter first, where that is sooner.
+    Blunter first, where that is sooner, and after it where it is sharper than it may be.
     """
     fine = chosen.strip.finer().settled(chosen.tension, SETTLED)
     blunter = _blunter(fine, chosen.tension, price)
     if blunter is not None:
         yield blunter
     yield fine
+    if bending(fine.spans)[1] > price.limit:
+        yield from (
+            fine.settled(chosen.tension, SETTLED, part * price.limit) for part in LIMIT_PARTS
+        )
     yield chosen.strip
 
 

@@ -124,16 +124,19 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
 
     now = time(run.laid.spans, run.laid.joints)
     known = now / (1.0 + GENTLE_SHARE) if least is None else least
-    slowing = pace.slowing if needs.budget is None else np.inf  # under way there is no time for it
-    price = RunPrice(time, now, before, known, slowing)
     least_radius = max(pace.widest_radius, (1.0 + SHARPER) * needs.outer_radius)
     fast = 1.0 / least_radius if pace.widest_radius > 0.0 else 0.0
+    as_sharp = (1.0 + SHARPER) * max(sharpest, fast)
+    own = max(needs.outer_radius, needs.turn_radius or 0.0)
+    slowing, limit = pace.slowing, max(as_sharp, 1.0 / own if own > 0.0 else np.inf)
+    if needs.budget is not None:  # under way there is no time for it
+        slowing = limit = np.inf
+    price = RunPrice(time, now, before, known, slowing, limit)
     for bent in _strips(run, problem, price):
         peak = bending(bent.spans)[1]
-        is_sharper = peak > (1.0 + SHARPER) * max(sharpest, fast)
         is_round = peak * needs.outer_radius <= 1.0
         is_sooner = time(bent.spans, bent.joints) <= (1.0 - TIME_KNOWN) * now
-        if (not is_sharper or (is_round and is_sooner)) and problem.is_drivable(bent.spans):
+        if (peak <= as_sharp or (is_round and is_sooner)) and problem.is_drivable(bent.spans):
             return bent
     return None
 

@@ -37,6 +37,7 @@ class RunPrice:
         bending: Of what was laid [1/m].
         least: No run on the same sides takes less time [s].
         slowing: Curvature beyond which the robot slows down [1/m], infinite where it never does.
+        limit: Curvature beyond which a run that is sharper than what was laid isn't taken [1/m].
     """
 
     time_of: Callable[[Floats, Ints], float]
@@ -44,6 +45,7 @@ class RunPrice:
     bending: float
     least: float
     slowing: float
+    limit: float
 
     def is_gentler(self, bending: float) -> bool:
         """Whether a run with a bending [1/m] bends less than what was laid."""
