@@ -16,7 +16,7 @@ from viaspline.planning.methods.at_radii import AtRadii
 from viaspline.planning.methods.hybrid_astar_search import HybridAStar
 from viaspline.planning.methods.joint_headings import JointHeadings
 from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
-from viaspline.planning.methods.ordered import BODY_METHODS
+from viaspline.planning.methods.ordered import BODY_METHODS, NEARBY_HEADINGS
 from viaspline.planning.methods.other_sides import OtherSides
 from viaspline.planning.methods.spline_as_is import SplineAsItIs
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
@@ -111,7 +111,9 @@ def test_the_other_sides_are_asked_for_what_is_shorter_and_never_lose() -> None:
     known = [[[8, -4], [12, -4], [12, 3], [8, 3]], [[20, -3], [24, -3], [24, 4], [20, 4]]]
     route = ({"at": [0, 0], "heading_deg": 90}, [32, 0])
     plain = lay((TurnsOnShortest(), AtRadii((HybridAStar(),))), *route, radius=4.0, known=known)
-    wider = lay((OtherSides((TurnsOnShortest(),)),), *route, radius=4.0, known=known)
+    wider = lay(
+        (OtherSides((TurnsOnShortest(),), NEARBY_HEADINGS),), *route, radius=4.0, known=known
+    )
     assert wider.length <= plain.length + 1e-9
 
 

@@ -94,6 +94,7 @@ def _meet_seldom() -> None:
     from viaspline.mission.shapes.obstacle import Obstacle
     from viaspline.planning.problem.requirements import Requirements
     from viaspline.planning.routing.bottleneck import bottleneck_between
+    from viaspline.planning.turning.bend_row import Bends
     from viaspline.planning.turning.headings import HeadingLeg, costs_between, posed
     from viaspline.trajectory.limits import Limits
     from viaspline.trajectory.yielding.law_among import law_among
@@ -106,7 +107,8 @@ def _meet_seldom() -> None:
     walled = World([rock], bounds=(0.0, -1.0, 10.0, 2.0))
     bottleneck_between(walled, np.array([1.0, 0.0]), np.array([9.0, 0.0]), 2.0)
     ends = np.array([[0.0, 0.0, 0.0, 0.0, np.nan, 0.5], [3.0, 1.0, 0.0, 0.0, np.nan, 0.5]])
-    legs = (HeadingLeg(ends, np.array([0, 1]), np.array([1.0]), np.array([0.0, 2.0])),)
+    bends = Bends.free(ends, np.array([0, 1]))
+    legs = (HeadingLeg(bends, np.array([1.0]), np.array([0.0, 2.0])),)
     costs = costs_between(legs, Requirements(radius=0.3, clearance=0.1))
     posed(legs, costs, closed=False, lay=lambda bends: None, max_rows=2, max_pairs=2)
     line = Path([[[0, 0], [10, 0], [20, 0], [30, 0]]], vias=[])

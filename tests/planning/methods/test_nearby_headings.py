@@ -90,7 +90,7 @@ def test_headings_are_sought_as_well_where_others_leave_no_turns() -> None:
     assert legs[1].inner_vias == {2, 3}
     found = NEARBY_HEADINGS.lay(problem)
     assert isinstance(found, Found)
-    assert is_round(PiecewiseCubic(found.value.spans), 2.0 / 1.0035)
+    assert is_round(PiecewiseCubic(found.value.spans), RADIUS_M)
 
 
 @pytest.mark.parametrize("gap", [4.0, 8.0])
@@ -102,5 +102,5 @@ def test_ends_of_a_leg_with_much_between_know_nothing_of_each_other(gap: float) 
     ((leg, _),) = [problem.heading_legs({3}, 16)]
     needs = problem.path.requirements
     told = costs_between([leg], needs)[0, : len(leg.starts), : len(leg.goals)]
-    assert len(leg.rows) == 4
+    assert len(leg.bends.rows) == 4
     assert np.allclose(told, leg.lengths().min(axis=(2, 3)), atol=1e-6)

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,8 +15,11 @@ from viaspline.planning.methods.bent_gently import BentGently
 from viaspline.planning.methods.ordered import NEARBY_HEADINGS
 from viaspline.planning.methods.rounder_turns import RounderTurns
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
+from viaspline.planning.turning.turning_problem import MOST_LONGER, TurningProblem
 
 RADIUS_M, REQUIRED_M = 0.35, 0.5
+ROBOT = {"radius_m": RADIUS_M, "clearance_m": REQUIRED_M - RADIUS_M, "max_speed_mps": 1.5,
+         "max_accel_mps2": 0.8, "max_lateral_accel_mps2": 0.6}  # fmt: skip
 
 
 def beside_a_wall(gap: float, back: float, turned: float, dwell: float = 0.0) -> vs.Mission:
@@ -28,9 +32,27 @@ def beside_a_wall(gap: float, back: float, turned: float, dwell: float = 0.0) ->
     start, via, goal = at((-9, gap), (0, gap), (-9, gap + back))
     return vs.Mission.model_validate({
         "world": {"known": [{"polygon": at((-12, -2), (12, -2), (12, 0), (-12, 0))}]},
-        "robot": {"radius_m": RADIUS_M, "clearance_m": REQUIRED_M - RADIUS_M,
-                  "max_speed_mps": 1.5, "max_accel_mps2": 0.8, "max_lateral_accel_mps2": 0.6},
+        "robot": ROBOT,
         "route": {"start": start, "via": [{"at": via, "dwell_s": dwell}], "goal": goal},
+    })  # fmt: skip
+
+
+def among_discs(seed: int) -> vs.Mission:
+    """Two via points among eight discs that stand close to each other."""
+    random = np.random.default_rng((78, seed))
+    discs = [
+        {"circle": {"center": random.uniform((0, -6), (16, 6)).round(2).tolist(), "radius": radius}}
+        for radius in random.uniform(0.3, 1.5, 8).round(2).tolist()
+    ]
+    places: list[Any] = []
+    while len(places) < 4:
+        place = random.uniform((-1, -7), (17, 7)).round(2).tolist()
+        gaps = [math.dist(place, d["circle"]["center"]) - d["circle"]["radius"] for d in discs]
+        if min(gaps) > REQUIRED_M + 0.02:
+            places.append(place)
+    return vs.Mission.model_validate({
+        "world": {"known": discs}, "robot": ROBOT,
+        "route": {"start": places[0], "via": places[1:-1], "goal": places[-1]},
     })  # fmt: skip
 
 
@@ -63,7 +85,42 @@ def test_without_other_headings_it_would_be_sharper(monkeypatch: pytest.MonkeyPa
     assert rounder.trajectory.duration < 1.1 * sharp.trajectory.duration
 
 
-def test_what_is_round_or_on_its_lane_is_left_as_it_is() -> None:
+@settings(max_examples=15, deadline=None)
+@given(st.floats(0.51, 1.2), st.floats(0.0, 1.5), st.floats(0.0, 6.28))
+@example(0.8, 0.5, 0.0)
+def test_where_lanes_are_kept_it_turns_as_round_and_is_back_on_its_lane(
+    gap: float, back: float, turned: float
+) -> None:
+    route = {"detours": "local"}
+    asked = beside_a_wall(gap, back, turned)
+    mission = asked.model_copy(update={"route": asked.route.model_copy(update=route)})
+    found = vs.plan(mission)
+    assert found.drivability.verdict == "good"
+    assert sharpest(found.path) >= 0.999 * RADIUS_M
+    assert mission.route.goal is not None
+    lanes = np.array([mission.route.start.at, mission.route.via[0].at, mission.route.goal.at])
+    places = found.path.evaluate(np.linspace(*found.path.domain, 4001))
+    for start, end in pairwise(lanes):
+        along = (end - start) / np.hypot(*(end - start))
+        off = np.abs((places - start) @ np.array((-along[1], along[0])))
+        near = (places[off < 1.0] - start) @ along
+        kept = np.unique(np.floor(np.clip(near, 0, math.dist(start, end) - 1e-9) / 0.1))
+        assert len(kept) > 0.98 * math.dist(start, end) / 0.1 - 1
+
+
+def test_a_way_that_is_round_is_taken_before_one_that_is_a_little_sooner() -> None:
+    asked = among_discs(91)
+    found = vs.plan(asked)
+    assert found.drivability.verdict == "good"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(TurningProblem, "price", TurningProblem.cost)
+        sharp = vs.plan(asked)
+    assert sharp.drivability.verdict == "rough"
+    assert sharp.trajectory.duration < found.trajectory.duration
+    assert found.trajectory.duration < MOST_LONGER * sharp.trajectory.duration
+
+
+def test_what_is_round_is_left_as_it_is() -> None:
     class Never:
         def lay(self, problem: object, bound: float = math.inf) -> Any:
             raise AssertionError("nothing is sharp")

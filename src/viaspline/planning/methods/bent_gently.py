@@ -32,17 +32,19 @@ class BentGently:
         outcome = self.method.lay(problem, bound)
         if not isinstance(outcome, Found):
             return outcome
-        best, limit = outcome.value, math.inf
-        cost, laid_cost = outcome.cost, outcome.cost
+        best, limit, laid_cost = outcome.value, math.inf, outcome.cost
+        weighed = problem.price if outcome.rivals else problem.cost
+        price = math.inf
         try:
             for rival_cost, laid in ((outcome.cost, outcome.value), *outcome.rivals[:MOST_RIVALS]):
                 if rival_cost > limit:
                     break
-                gentle = gentler_path(problem, laid)
-                bent_cost = rival_cost if gentle is None else problem.cost(gentle)
-                if laid is outcome.value or bent_cost < (1.0 - LEAST_GAIN) * cost:
-                    best, cost = gentle or laid, bent_cost
-                limit = max(NEAR_TIED * laid_cost, laid_cost + LIKELY_SAVED * (laid_cost - cost))
+                bent = gentler_path(problem, laid) or laid
+                its_price = weighed(bent)
+                if its_price < (1.0 - LEAST_GAIN) * price:
+                    best, price = bent, its_price
+                saved = laid_cost - price
+                limit = max(NEAR_TIED * laid_cost, laid_cost + LIKELY_SAVED * saved)
         except SpentBudgetError:  # there is a path, and no time left to bend it
             pass
-        return replace(outcome, value=best, cost=cost, rivals=())
+        return replace(outcome, value=best, cost=problem.cost(best), rivals=())

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.headings import HEADING_COUNT, Poses, costs_between, posed
-from viaspline.planning.turning.laid_turns import through_turns
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_problem import TurnProblem
 
@@ -39,9 +38,8 @@ class JointHeadings:
         poses = self.poses(problem, problem.vias, bound)
         if poses is None:
             return GaveUp((f"{self.max_rows} rows of headings at the via points",))
-        path = problem.path
-        spline_path = through_turns(path.sequence, poses.turn_paths)
-        return Found(spline_path, path.cost(spline_path))
+        spline_path = problem.laid(poses)
+        return Found(spline_path, problem.path.cost(spline_path))
 
     def poses(
         self, problem: TurnProblem, sought: Collection[int], bound: float = math.inf

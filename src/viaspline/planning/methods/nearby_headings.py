@@ -15,7 +15,6 @@ from viaspline.planning.methods.joint_headings import JointHeadings
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.headings import costs_between
-from viaspline.planning.turning.laid_turns import through_turns
 from viaspline.planning.turning.turn_problem import TurnProblem
 
 
@@ -32,10 +31,11 @@ class NearbyHeadings:
     def lay(self, problem: TurnProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
         """See ``Method``."""
         sought = self._sought(problem)
-        poses = self.headings.poses(problem, sought, bound) if sought else None
+        is_other = sought or problem.spots
+        poses = self.headings.poses(problem, sought, bound) if is_other else None
         if poses is None:
             return GaveUp(("headings at the via points about what is tight",))
-        spline_path = through_turns(problem.path.sequence, poses.turn_paths)
+        spline_path = problem.laid(poses)
         return Found(spline_path, problem.path.cost(spline_path))
 
     def _sought(self, problem: TurnProblem) -> frozenset[int]:

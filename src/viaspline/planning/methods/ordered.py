@@ -5,6 +5,8 @@ A new one is a file beside this one and a line here.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from viaspline.planning.methods.at_radii import AtRadii
 from viaspline.planning.methods.bent_gently import BentGently
 from viaspline.planning.methods.gaps_for_body import GapsForBody
@@ -28,7 +30,7 @@ SPLINE_METHODS: tuple[PathMethod, ...] = (SplineLedRound(),)
 """For the paper's curve, and for one that climbs: turns are flat."""
 
 FEW_HEADINGS = JointHeadings(max_rows=200, max_pushed_rows=30, max_pushed_pairs=16, headings=16)
-NEARBY_HEADINGS = NearbyHeadings(FEW_HEADINGS)
+NEARBY_HEADINGS = NearbyHeadings(replace(FEW_HEADINGS, max_rows=60, max_pushed_rows=20))
 
 DISC_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
@@ -37,7 +39,7 @@ DISC_METHODS: tuple[PathMethod, ...] = (
         RounderTurns(AtRadii((NEARBY_HEADINGS,)), FEW_HEADINGS),
         AtRadii((FEW_HEADINGS,)),
         SplineLedRound(),
-    ))),
+    ), NEARBY_HEADINGS)),
 )  # fmt: skip
 """For a disc that can follow any curve; none of them takes long."""
 
@@ -51,7 +53,7 @@ BODY_METHODS: tuple[PathMethod, ...] = (
             GapsForBody(),
             HybridAStar(),
         )),
-    ))),
+    ), NEARBY_HEADINGS)),
 )  # fmt: skip
 """For a robot with a turning circle or a long body."""
 

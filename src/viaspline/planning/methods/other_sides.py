@@ -8,17 +8,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain
+from itertools import chain, tee
 
 import numpy as np
 
 from viaspline.kernels.routing.tangent_arcs import BEND_RADIUS, HEADING_IN, SIDE, TURN
 from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, cheapest_laid
+from viaspline.planning.methods.rounder_turns import rounder_path
 from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.likely_price import LikelyPrice
+from viaspline.planning.turning.turn_problem import TurnProblem
 
 MAX_SOUGHT_BENDS = 60
 """Legs among much else are led to other sides in rows of no more bends: to lay one takes longer
@@ -26,6 +28,9 @@ than what is gained by one of so many turns."""
 
 MOST_GAPS, LEAST_TURN_RAD = 4, 0.3
 """A leg among much else is led past the gaps in which it turns most, and by so much at least."""
+
+MOST_STUCK = 3
+"""Rows for which no rounder turns are found, after which none are sought any more."""
 
 MAX_LAID = 60_000
 """Rows that are laid to find a better one, times the square of their bends: what that costs."""
@@ -39,9 +44,11 @@ class OtherSides:
 
     Attributes:
         methods: The others, in the order in which they are asked.
+        rounder: Lays turns of at least a radius on other sides, where others are sharper.
     """
 
     methods: Sequence[Method[DrivenProblem, SplinePath]]
+    rounder: Method[TurnProblem, SplinePath]
 
     def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Outcome[SplinePath]:
         """See ``Method``."""
@@ -49,19 +56,28 @@ class OtherSides:
         if not isinstance(outcome, Found):
             return outcome
         if not problem.cleared.passed:  # nothing was in the way: there are no other sides
-            return Found(outcome.value, problem.cost(outcome.value))
+            return replace(outcome, cost=problem.cost(outcome.value))
 
-        known = [(outcome.cost, outcome.value)]
+        stuck = [] if problem.is_round(outcome.value) else [problem.shortest_row]
+        known = [outcome.value, *(rival for _, rival in outcome.rivals)]
 
         def attempt(row: TautRow, bound: float) -> Attempt[SplinePath]:
             choices = problem.kept_lanes.bends_along(row.taut_paths)
             first = next(choices)
             if not problem.is_promising(first, bound):
                 return Attempt(None)
-            laid = problem.turns_along(row.taut_paths, chain((first,), choices))
+            choices, again = tee(chain((first,), choices))
+            laid = problem.turns_along(row.taut_paths, choices)
             if laid is None:
                 return Attempt(None)
-            known.append((problem.cost(laid), laid))
+            known.append(laid)
+            if len(stuck) < MOST_STUCK and not problem.is_round(laid):
+                rounder = rounder_path(problem, laid, again, self.rounder, bound)
+                if rounder is None:
+                    stuck.append(row)
+                else:
+                    known.append(rounder)
+                    laid = rounder
             return Attempt(laid, _other_rows(problem, row, laid))
 
         try:
@@ -73,8 +89,9 @@ class OtherSides:
             rows, attempt, LikelyPrice(problem, outcome.value), outcome.value, most
         )
         assert best is not None  # there was one to begin with
-        rivals = sorted((one for one in known if one[1] is not best), key=lambda one: one[0])
-        return Found(best, problem.cost(best), rivals=tuple(rivals))
+        rivals = {id(one): (problem.cost(one), one) for one in known if one is not best}
+        in_order = sorted(rivals.values(), key=lambda rival: rival[0])
+        return Found(best, problem.cost(best), rivals=tuple(in_order))
 
 
 def _other_rows(problem: DrivenProblem, row: TautRow, laid: SplinePath) -> Iterator[TautRow]:

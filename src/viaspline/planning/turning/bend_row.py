@@ -109,15 +109,15 @@ class Bends:
         after = int(np.searchsorted(at_vias, row, side="right"))
         return self.vias_at(at_vias[after - 1], at_vias[after % len(at_vias)])
 
-    def between(self, first: int, last: int) -> Ints:
-        """Where in the row the bends from one via point to another stand, of a round past its end.
+    def between(self, first: int, last: int) -> Bends:
+        """Those from one via point to another, of a round past its end.
 
         From a via point to itself that is all of the round.
         """
         begin, end = self.places(first), self.places(last)
-        if begin < end:
-            return np.arange(begin, end + 1)
-        return np.concatenate((np.arange(begin, len(self.rows)), np.arange(end + 1)))
+        count = end - begin if begin < end else end - begin + len(self.rows)
+        rows = np.arange(begin, begin + count + 1) % len(self.rows)
+        return Bends(self.rows[rows], self.vias[rows], self.swings[rows])
 
     def places(self, via: int) -> int:
         """Where in the row a via point of the sequence stands."""

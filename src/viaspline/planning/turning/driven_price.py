@@ -25,7 +25,7 @@ class DrivenPrice:
 
     def of(self, laid: SplinePath, /) -> float:
         """See ``Price``."""
-        return self.problem.cost(laid)
+        return self.problem.price(laid)
 
     def least(self, row: TautRow, /) -> float:
         """See ``Price``: straight lines of the same lengths from halt to halt."""

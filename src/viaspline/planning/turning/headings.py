@@ -18,7 +18,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.heading_costs import cheapest, leg_lengths
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import HEADING_PAIR_BEND_S, HEADING_PAIR_BENDS_S
@@ -38,33 +38,32 @@ class HeadingLeg:
     """What lies between two via points of a row of bends, one or more legs.
 
     Attributes:
-        rows: Its bends, the via points at its ends among them, (n, 6).
-        vias: The via point of each as in ``Bends``, (n,).
+        bends: Its bends, the via points at its ends among them.
         starts: The headings at its start [rad], (k,); a NaN is free.
         goals: The headings at its goal [rad], (l,).
     """
 
-    rows: Floats
-    vias: Ints
+    bends: Bends
     starts: Floats
     goals: Floats
 
     @property
     def inner_vias(self) -> frozenset[int]:
         """The via points between its ends, whose headings are left as they come to be."""
-        return frozenset(self.vias[1:-1][self.vias[1:-1] != DETOUR].tolist())
+        inner = self.bends.vias[1:-1]
+        return frozenset(inner[inner != DETOUR].tolist())
 
     def lengths(self) -> Floats:
         """See ``kernels.turning.heading_costs.leg_lengths``."""
-        found: Floats = leg_lengths(self.rows, self.starts, self.goals, RAMP)
+        found: Floats = leg_lengths(self.bends.rows, self.starts, self.goals, RAMP)
         return found
 
     def between(self, start: float, goal: float) -> Bends:
         """Its bends with headings at both ends [rad]."""
-        rows = self.rows.copy()
+        rows = self.bends.rows.copy()
         rows[[0, -1], HEADING] = start, goal
         rows[[0, -1], SIDE] = 0.0
-        return Bends.free(rows, self.vias)
+        return replace(self.bends, rows=rows)
 
 
 @dataclass(frozen=True)
@@ -108,11 +107,10 @@ def legs_of(
     if bends.closed:
         cut.append(cut[0])
     headings = [_headings(bends, via, vias, spots, count, walls) for via in cut]
-    legs = []
-    for k, (first, last) in enumerate(pairwise(cut)):
-        rows = bends.between(first, last)
-        legs.append(HeadingLeg(bends.rows[rows], bends.vias[rows], headings[k], headings[k + 1]))
-    return tuple(legs)
+    return tuple(
+        HeadingLeg(bends.between(first, last), headings[k], headings[k + 1])
+        for k, (first, last) in enumerate(pairwise(cut))
+    )
 
 
 def _headings(
@@ -141,7 +139,7 @@ def costs_between(legs: Sequence[HeadingLeg], requirements: Requirements) -> Flo
     most = max(len(ends) for leg in legs for ends in (leg.starts, leg.goals))
     costs = np.full((len(legs), most, most), np.inf)
     for k, leg in enumerate(legs):
-        between = _end_by_end if len(leg.rows) >= APART_BENDS else _pair_by_pair
+        between = _end_by_end if len(leg.bends.rows) >= APART_BENDS else _pair_by_pair
         costs[k, : len(leg.starts), : len(leg.goals)] = between(leg, requirements)
     return costs
 
@@ -170,7 +168,7 @@ def _end_by_end(leg: HeadingLeg, requirements: Requirements) -> Floats:
 def _lengths(leg: HeadingLeg, requirements: Requirements) -> Floats:
     """How long a leg is, to the better sides, from each heading to each other one [m], (k, l)."""
     found = requirements.once(
-        ("lengths", leg.rows.tobytes(), leg.starts.tobytes(), leg.goals.tobytes()),
+        ("lengths", leg.bends.rows.tobytes(), leg.starts.tobytes(), leg.goals.tobytes()),
         partial(_paid_lengths, leg, requirements),
     )
     return found.min(axis=(2, 3))
@@ -178,7 +176,7 @@ def _lengths(leg: HeadingLeg, requirements: Requirements) -> Floats:
 
 def _paid_lengths(leg: HeadingLeg, requirements: Requirements) -> Floats:
     """The lengths of a leg, when what they cost has been taken off."""
-    pairs, bends = len(leg.starts) * len(leg.goals), len(leg.rows)
+    pairs, bends = len(leg.starts) * len(leg.goals), len(leg.bends.rows)
     cost = HEADING_PAIR_BEND_S + HEADING_PAIR_BENDS_S * bends
     requirements.spend(cost * pairs * bends)
     return leg.lengths()

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -98,9 +99,12 @@ class LegLane:
 
     def _width(self, stay: Stay, reach: float) -> float:
         """Of what stands in the way there [m]; infinite if that is more than a reach."""
-        place = self._middle(stay)
-        index = int(self.leg.world.nearest(place)[1])
-        return width_in(self.leg.world, self.lane, place, index, reach)
+        place, world = self._middle(stay), self.leg.world
+        index = int(world.nearest(place)[1])
+        return self.leg.requirements.recalled(
+            ("width", world, self.leg.index, place.tobytes(), reach),
+            partial(width_in, world, self.lane, place, index, reach),
+        )
 
     def _middle(self, stay: Stay) -> Floats:
         return self.lane.at(0.5 * (stay.begin + stay.end))
@@ -147,7 +151,7 @@ class LegLane:
         barriers = _barriers(world, self.lane, middle, index)
         passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
         closed = barriers.right if passed is barriers.left else barriers.left
-        width = width_in(world, self.lane, middle, index, self.lane.length)
+        width = self._width(stay, self.lane.length)
         size = (width if math.isfinite(width) else 0.0) + 2.0 * self.leg.requirements.required
         return replace(stay, size=max(size, stay.size), barriers=closed)
 

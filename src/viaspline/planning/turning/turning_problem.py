@@ -39,6 +39,7 @@ from viaspline.planning.turning.wide_turns import WideTurns
 FREE_TURN_RADII = (3.0, 1.5)
 LEAST_FREE_TURN_RADIUS = 0.5
 ROOMY_TURN_RADIUS = 2.0  # of turns where there is room, even if sharper ones are as fast
+MOST_LONGER = 1.1  # what round turns may cost, over what turns do that are sharper than the robot
 MUCH_LOST = 1.07  # time of a leg, over that of a straight line
 LEAST_REQUIRED_M = 1e-3  # that these are of
 BESIDE_WALL = 0.25  # beyond the required distance, in such distances: a via point is beside a wall
@@ -173,6 +174,18 @@ class TurningProblem(PathProblem):
 
         Where the robot may turn on the spot there may be a corner.
         """
+        known = self._rounds.get(id(spline_path))
+        if known is None:
+            known = self._rounds[id(spline_path)] = spline_path, self._is_round(spline_path)
+        return known[1]
+
+    @cached_property
+    def _rounds(self) -> dict[int, tuple[SplinePath, bool]]:
+        """Paths of which it is known whether they are round, by their ids: most are asked twice."""
+        return {}
+
+    def _is_round(self, spline_path: SplinePath) -> bool:
+        """See ``is_round``."""
         spans, spots = spline_path.spans, sorted(self.spots)
         parts = [part for part in np.split(spans, spline_path.joints[spots]) if len(part)]
         if spots and self.sequence.closed and 0 not in self.spots:
@@ -197,6 +210,16 @@ class TurningProblem(PathProblem):
             known = spline_path, driving_time(spline_path.spans, objective.pace, rests)
             self._times[id(spline_path)] = known
         return known[1]
+
+    def price(self, spline_path: SplinePath) -> float:
+        """What a path is compared with others by [s or m]: more than it costs if it is too sharp.
+
+        That is sharper than the robot itself, where it isn't the length that counts.
+        """
+        cost, by_time = self.cost(spline_path), self.requirements.objective.is_time
+        if not by_time or self.own_radius <= self.sharpest or self.is_round(spline_path):
+            return cost
+        return MOST_LONGER * cost
 
     @cached_property
     def _times(self) -> dict[int, tuple[SplinePath, float]]:
@@ -228,8 +251,9 @@ class TurningProblem(PathProblem):
 
     def wide_turns(self, rho: float) -> WideTurns:
         """The turns of a good driver, of at least a radius [m]."""
-        pace = self.requirements.objective.pace
-        return WideTurns(pace, rho, self.sharpest, self.roomy, self.own_radius)
+        pace, own = self.requirements.objective.pace, self.own_radius
+        sharpest = max(self.sharpest, min(own, rho))
+        return WideTurns(pace, rho, sharpest, self.roomy, own)
 
     @property
     def roomy(self) -> float:
