@@ -232,12 +232,10 @@ class _Drive:
             *(ends for ends in np.asarray(self.path.distance(self.cusps)).reshape(-1, 2)
               if ends[0] <= distance <= ends[1]),
         ))  # fmt: skip
-        points = self.trajectory.distances
-        rests = points[self.trajectory.speeds == 0.0]
-        if np.any((rests >= around.min()) & (rests <= around.max())):
-            return 0.0
-        slowest = float(self.trajectory.speed_at(around).min())
-        accel = float(np.abs(self.trajectory.accelerations).max(initial=0.0))
+        law = self.trajectory
+        within = (law.distances >= around.min()) & (law.distances <= around.max())
+        slowest = float(np.concatenate((law.speeds[within], law.speed_at(around))).min())
+        accel = float(np.abs(law.accelerations).max(initial=0.0))
         return 0.0 if slowest**2 <= 2.0 * accel * place_slip(self.path.length) else slowest
 
     def _is_asked(self, distance: float) -> bool:
