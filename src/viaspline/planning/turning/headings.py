@@ -193,6 +193,8 @@ def posed(
 ) -> Poses | None:
     """The shortest row of clear legs, None where there is none among the headings that are tried.
 
+    Where as many rows are tried as may be it is the shortest of what was laid by then.
+
     Args:
         legs: The legs.
         costs: What they cost between their headings, see ``costs_between``.
@@ -203,25 +205,25 @@ def posed(
         bound: Only shorter rows are of use [m].
     """
     counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
-    costs = costs.copy()
-    spline_path: dict[tuple[int, int, int], TurnPath] = {}
+    costs, known = costs.copy(), np.full_like(costs, math.inf)
+    laid: dict[tuple[int, int, int], TurnPath] = {}
     failed, is_hopeful = np.zeros(len(legs), np.int64), np.zeros(len(legs), np.bool_)
-    for _ in range(max_rows):
-        row, cost = cheapest(costs, counts, closed)
+    for left in reversed(range(max_rows + 1)):
+        row, cost = cheapest(costs if left > 0 else known, counts, closed)
         if not cost < bound:  # what is not laid yet costs no less than it says
             return None
         keys = [(k, int(row[k]), int(row[k + 1])) for k in range(len(legs))]
-        new = [key for key in keys if key not in spline_path]
+        new = [key for key in keys if key not in laid]
         if not new:
             headings = [leg.starts[key[1]] for leg, key in zip(legs, keys, strict=True)]
             ends = np.array([*headings, legs[-1].goals[row[-1]]])
-            return _finer(Poses(ends, tuple(spline_path[key] for key in keys)), legs, closed, lay)
+            return _finer(Poses(ends, tuple(laid[key] for key in keys)), legs, closed, lay)
         for key in new:
             leg = legs[key[0]]
             turn_path = lay(leg.between(leg.starts[key[1]], leg.goals[key[2]]))
-            costs[key] = math.inf if turn_path is None else turn_path.length
+            costs[key] = known[key] = math.inf if turn_path is None else turn_path.length
             if turn_path is not None:
-                spline_path[key] = turn_path
+                laid[key] = turn_path
                 is_hopeful[key[0]] = True
             failed[key[0]] += 1
         if ((failed >= max_pairs) & ~is_hopeful).any():
