@@ -76,7 +76,7 @@ def _promising(strip: TenseStrip, price: RunPrice) -> Iterator[Tried]:
     for _ in range(MOST_TENSIONS):
         moved = strip.settled(tension, NEARLY_SETTLED)
         search = search.having(_tried(strip, moved, tension, price))
-        restless += not moved.is_settled
+        restless += not (moved.is_settled or moved.has_kink)  # less tension draws to no kink
         following = search.following
         if following is None or restless > MOST_RESTLESS:
             break
