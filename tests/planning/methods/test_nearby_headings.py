@@ -18,8 +18,9 @@ from viaspline.planning.problem.method import Found
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.turning.bend_row import DETOUR, Bends, bend
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.headings import costs_between
+from viaspline.planning.turning.headings import HeadingLeg, costs_between, with_room
 from viaspline.planning.turning.turn_problem import TurnProblem
 
 RADIUS_M = 0.35
@@ -104,3 +105,22 @@ def test_ends_of_a_leg_with_much_between_know_nothing_of_each_other(gap: float) 
     told = costs_between([leg], needs)[0, : len(leg.starts), : len(leg.goals)]
     assert len(leg.bends.rows) == 4
     assert np.allclose(told, leg.lengths().min(axis=(2, 3)), atol=1e-6)
+
+
+def test_where_corners_of_cells_leave_turns_no_room_those_in_line_are_left_out() -> None:
+    """Some corners of a wall of cells lie 5 and 20 cm apart, hardly off the line of others."""
+    wall = [[20.45, 2.45], [21.0, 2.4], [21.2, 2.4], [21.25, 2.4], [24.25, 2.45], [24.4, 2.5]]
+    bent = [*(bend(*at, 0.5, 1.0) for at in wall), bend(25.75, 6.15, 0.5, -1.0)]
+    rows = np.array([bend(19.79, 2.74), *bent, bend(25.5, 7.85, 0.5, 1.0), bend(26.41, 13.12)])
+    bends = Bends.free(rows, np.array([0, *[DETOUR] * 8, 1])).turning(0.5)
+    free = np.array([np.nan])
+    leg, needs = HeadingLeg(bends, free, free), Requirements(radius=0.35, clearance=0.15)
+    costs = costs_between([leg], needs)
+    assert np.isinf(costs).all()
+    ((thin,), known) = with_room([leg], costs, needs)
+    left = thin.bends.rows[1:-1, :2].tolist()
+    assert [at for at in wall if at not in left] == [[21.2, 2.4], [21.25, 2.4]]
+    assert 16.0 < known.item() < 17.0
+    (same, kept) = with_room([thin], known, needs)
+    assert same == (thin,)
+    assert kept is known

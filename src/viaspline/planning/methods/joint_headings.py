@@ -11,7 +11,13 @@ from dataclasses import dataclass
 
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
-from viaspline.planning.turning.headings import HEADING_COUNT, Poses, costs_between, posed
+from viaspline.planning.turning.headings import (
+    HEADING_COUNT,
+    Poses,
+    costs_between,
+    posed,
+    with_room,
+)
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_problem import TurnProblem
 
@@ -54,7 +60,7 @@ class JointHeadings:
         needs, closed = problem.path.requirements, problem.path.sequence.closed
         bound = needs.objective.metres(bound)
         legs = problem.heading_legs(sought, self.headings)
-        costs = costs_between(legs, needs)
+        legs, costs = with_room(legs, costs_between(legs, needs), needs)
         rows, pairs = self.max_rows, self.max_rows
         for lay in (turn_path_if_clear, clear_turn_path):
             on_sides = problem.on_sides(lay)

@@ -119,6 +119,30 @@ class Bends:
         rows = np.arange(begin, begin + count + 1) % len(self.rows)
         return Bends(self.rows[rows], self.vias[rows], self.swings[rows])
 
+    def thinned(self, off: float) -> Bends:
+        """These bends without detours that lie no farther than that off the line of others [m].
+
+        So it is with corners of cells along a wall. A detour is between two others to its own side,
+        of a row that is open; the one that lies least off its line goes first.
+        """
+        left = list(range(len(self.rows)))
+        while True:
+            offs = {k: self._off_line(*left[k - 1 : k + 2]) for k in range(2, len(left) - 2)}
+            least = min(offs, key=lambda k: offs[k], default=0)
+            if not offs or offs[least] > off:
+                return self.only(np.array(left))
+            del left[least]
+
+    def _off_line(self, before: int, row: int, after: int) -> float:
+        """How far bend ``row`` lies off the line of two others [m]; infinite for one that stays."""
+        rows = self.rows[[before, row, after]]
+        is_detour = (self.vias[[before, row, after]] == DETOUR).all()
+        way, own = rows[2, :2] - rows[0, :2], rows[1, :2] - rows[0, :2]
+        length = math.hypot(*way)
+        if not is_detour or np.ptp(rows[:, SIDE]) > 0.0 or length == 0.0:
+            return math.inf
+        return abs(float(way[0] * own[1] - way[1] * own[0])) / length
+
     def places(self, via: int) -> int:
         """Where in the row a via point of the sequence stands."""
         return int(np.flatnonzero(self.vias == via)[0])

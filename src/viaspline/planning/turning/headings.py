@@ -30,6 +30,7 @@ Lay = Callable[[Bends], TurnPath | None]  # of a leg with headings at its ends
 HEADING_COUNT = 36  # that are tried at a via point
 STARTS_AT_ONCE = 6  # of the headings of a leg, of which a search is stopped no sooner than after
 APART_BENDS = 4  # of a leg, ends among them, from which on its ends know nothing of each other
+THIN = 0.02  # off the line of others, that bends may be left out where there is no room; required
 FINER_TURNS = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
 
 
@@ -142,6 +143,33 @@ def costs_between(legs: Sequence[HeadingLeg], requirements: Requirements) -> Flo
         between = _end_by_end if len(leg.bends.rows) >= APART_BENDS else _pair_by_pair
         costs[k, : len(leg.starts), : len(leg.goals)] = between(leg, requirements)
     return costs
+
+
+def with_room(
+    legs: Sequence[HeadingLeg], costs: Floats, requirements: Requirements
+) -> tuple[tuple[HeadingLeg, ...], Floats]:
+    """The legs without bends that others nearly make needless, where there is no room between.
+
+    Turns at corners of cells that lie a few centimetres apart leave each other none. What comes too
+    near to a wall without them is pushed away.
+
+    Args:
+        legs: The legs.
+        costs: What they cost between their headings, see ``costs_between``.
+        requirements: With what may be spent.
+
+    Returns:
+        The legs, and what they cost.
+    """
+    none = ~np.isfinite(costs).any(axis=(1, 2))
+    if not none.any():
+        return tuple(legs), costs
+    off = THIN * requirements.required
+    thinned = [
+        replace(leg, bends=leg.bends.thinned(off)) if is_none else leg
+        for leg, is_none in zip(legs, none, strict=True)
+    ]
+    return tuple(thinned), costs_between(thinned, requirements)
 
 
 def _pair_by_pair(leg: HeadingLeg, requirements: Requirements) -> Floats:

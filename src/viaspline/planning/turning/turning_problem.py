@@ -81,11 +81,14 @@ class TurningProblem(PathProblem):
 
     @property
     def searched_radii(self) -> tuple[float, ...]:
-        """Those of them that are worth a longer search [m], in the same order."""
+        """Those of them that are worth a longer search [m], in the same order.
+
+        For a disc none that are wide: what is found is laid anew, as wide as is soonest.
+        """
         radii = self.least_radii
-        if len(radii) == 1:
-            return radii
-        return radii[1:] if self._takes_wide_turns else radii[:2]
+        if len(radii) == 1 or not self._takes_wide_turns:
+            return radii[:2]
+        return radii[2:] if self.requirements.is_free_disc else radii[1:]
 
     @property
     def own_radius(self) -> float:
@@ -174,24 +177,21 @@ class TurningProblem(PathProblem):
 
         Where the robot may turn on the spot there may be a corner.
         """
-        known = self._rounds.get(id(spline_path))
-        if known is None:
-            known = self._rounds[id(spline_path)] = spline_path, self._is_round(spline_path)
-        return known[1]
+        if id(spline_path) not in self._rounds:
+            self._rounds[id(spline_path)] = spline_path, self._is_round(spline_path)
+        return self._rounds[id(spline_path)][1]
 
     @cached_property
     def _rounds(self) -> dict[int, tuple[SplinePath, bool]]:
-        """Paths of which it is known whether they are round, by their ids: most are asked twice."""
+        """Paths that are known to be round or not, by their ids: most are asked for twice."""
         return {}
 
     def _is_round(self, spline_path: SplinePath) -> bool:
-        """See ``is_round``."""
         spans, spots = spline_path.spans, sorted(self.spots)
         parts = [part for part in np.split(spans, spline_path.joints[spots]) if len(part)]
         if spots and self.sequence.closed and 0 not in self.spots:
             parts.append(spans[[-1, 0]])  # its seam
-        radius = self.requirements.outer_radius
-        return all(is_round(self._ground(part), radius) for part in parts)
+        return all(is_round(self._ground(part), self.requirements.outer_radius) for part in parts)
 
     def _ground(self, spans: Floats) -> PiecewiseCubic:
         """The ground track of spans; with the seam, if they are a round: no turn there either."""
