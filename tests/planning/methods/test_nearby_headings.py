@@ -19,8 +19,10 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.turning.bend_row import DETOUR, Bends, bend
+from viaspline.planning.turning.clear_ends import with_clear_ends
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.headings import HeadingLeg, costs_between, with_room
+from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.turn_problem import TurnProblem
 
 RADIUS_M = 0.35
@@ -124,3 +126,20 @@ def test_where_corners_of_cells_leave_turns_no_room_those_in_line_are_left_out()
     (same, kept) = with_room([thin], known, needs)
     assert same == (thin,)
     assert kept is known
+
+
+def test_headings_into_a_wall_are_left_out_before_a_long_leg_is_pushed_clear() -> None:
+    problem = turns(ROUND, True, [WALL], 1.0035 * RADIUS_M)
+    legs = problem.heading_legs({1}, 16)
+    costs = costs_between(legs, problem.path.requirements)
+    assert np.isfinite(costs).all()
+    kept = with_clear_ends(legs, costs, problem.on_sides(clear_turn_path))
+    leaves = np.isfinite(kept[0]).any(axis=1)
+    arrives = np.isfinite(kept[0]).any(axis=0)
+    headings = np.degrees(legs[0].starts)
+    assert not leaves[np.isclose(headings, 270.0)].any()  # straight down to the wall
+    assert not arrives[np.isclose(headings, 90.0)].any()  # as from within it
+    for along in (0.0, 180.0):
+        assert leaves[np.isclose(headings, along)].all()
+        assert arrives[np.isclose(headings, along)].all()
+    assert (kept[np.isfinite(kept)] == costs[np.isfinite(kept)]).all()

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.turning.clear_ends import with_clear_ends
 from viaspline.planning.turning.headings import (
     HEADING_COUNT,
     Poses,
@@ -61,11 +62,10 @@ class JointHeadings:
         bound = needs.objective.metres(bound)
         legs = problem.heading_legs(sought, self.headings)
         legs, costs = with_room(legs, costs_between(legs, needs), needs)
-        rows, pairs = self.max_rows, self.max_rows
-        for lay in (turn_path_if_clear, clear_turn_path):
-            on_sides = problem.on_sides(lay)
-            found = posed(legs, costs, closed, on_sides, rows, pairs, bound)
-            if found is not None:
-                return found
-            rows, pairs = self.max_pushed_rows, self.max_pushed_pairs
-        return None
+        as_it_is, pushed = map(problem.on_sides, (turn_path_if_clear, clear_turn_path))
+        found = posed(legs, costs, closed, as_it_is, self.max_rows, self.max_rows, bound)
+        if found is not None:
+            return found
+        costs = with_clear_ends(legs, costs, pushed)
+        rows, pairs = self.max_pushed_rows, self.max_pushed_pairs
+        return posed(legs, costs, closed, pushed, rows, pairs, bound)

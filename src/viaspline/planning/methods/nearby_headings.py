@@ -45,8 +45,8 @@ class NearbyHeadings:
             sought |= more
             legs = problem.heading_legs(sought, self.headings.headings)
             costs = costs_between(legs, problem.path.requirements)
-            none = ~np.isfinite(costs).any(axis=(1, 2))
+            found = zip(legs, costs, strict=True)
             more = frozenset().union(
-                *(leg.inner_vias for leg, is_none in zip(legs, none, strict=True) if is_none)
+                *(leg.inner_vias for leg, its in found if not np.isfinite(its).any())
             )
         return sought

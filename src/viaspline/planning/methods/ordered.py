@@ -30,7 +30,9 @@ SPLINE_METHODS: tuple[PathMethod, ...] = (SplineLedRound(),)
 """For the paper's curve, and for one that climbs: turns are flat."""
 
 FEW_HEADINGS = JointHeadings(max_rows=200, max_pushed_rows=30, max_pushed_pairs=16, headings=16)
-NEARBY_HEADINGS = NearbyHeadings(replace(FEW_HEADINGS, max_rows=60, max_pushed_rows=20))
+NEARBY_HEADINGS = NearbyHeadings(
+    replace(FEW_HEADINGS, max_rows=60, max_pushed_rows=20, max_pushed_pairs=4)
+)
 
 DISC_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),

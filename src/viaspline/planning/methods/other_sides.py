@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, tee
+from itertools import chain
 
 import numpy as np
 
@@ -66,13 +66,12 @@ class OtherSides:
             first = next(choices)
             if not problem.is_promising(first, bound):
                 return Attempt(None)
-            choices, again = tee(chain((first,), choices))
-            laid = problem.turns_along(row.taut_paths, choices)
+            laid = problem.turns_along(row.taut_paths, chain((first,), choices))
             if laid is None:
                 return Attempt(None)
             known.append(laid)
             if len(stuck) < MOST_STUCK and not problem.is_round(laid):
-                rounder = rounder_path(problem, laid, again, self.rounder, bound)
+                rounder = rounder_path(problem, laid, (first,), self.rounder, bound)
                 if rounder is None:
                     stuck.append(row)
                 else:

@@ -161,8 +161,8 @@ def with_room(
     Returns:
         The legs, and what they cost.
     """
-    none = ~np.isfinite(costs).any(axis=(1, 2))
-    if not none.any():
+    none = [not np.isfinite(its).any() for its in costs]
+    if not any(none):
         return tuple(legs), costs
     off = THIN * requirements.required
     thinned = [
@@ -195,11 +195,12 @@ def _end_by_end(leg: HeadingLeg, requirements: Requirements) -> Floats:
 
 def _lengths(leg: HeadingLeg, requirements: Requirements) -> Floats:
     """How long a leg is, to the better sides, from each heading to each other one [m], (k, l)."""
-    found = requirements.once(
+    found = requirements.recalled(
         ("lengths", leg.bends.rows.tobytes(), leg.starts.tobytes(), leg.goals.tobytes()),
         partial(_paid_lengths, leg, requirements),
     )
-    return found.min(axis=(2, 3))
+    least: Floats = found.min(axis=(2, 3))
+    return least
 
 
 def _paid_lengths(leg: HeadingLeg, requirements: Requirements) -> Floats:

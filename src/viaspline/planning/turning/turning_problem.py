@@ -81,14 +81,12 @@ class TurningProblem(PathProblem):
 
     @property
     def searched_radii(self) -> tuple[float, ...]:
-        """Those of them that are worth a longer search [m], in the same order.
-
-        For a disc none that are wide: what is found is laid anew, as wide as is soonest.
-        """
+        """Those of them that are worth a longer search [m]; a disc's own first, then laid wider."""
         radii = self.least_radii
         if len(radii) == 1 or not self._takes_wide_turns:
             return radii[:2]
-        return radii[2:] if self.requirements.is_free_disc else radii[1:]
+        wide, own, *least = radii[1:]
+        return (own, wide, *least) if self.requirements.is_free_disc else radii[1:]
 
     @property
     def own_radius(self) -> float:
