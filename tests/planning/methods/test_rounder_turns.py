@@ -15,6 +15,7 @@ from viaspline.planning.methods.bent_gently import BentGently
 from viaspline.planning.methods.ordered import NEARBY_HEADINGS
 from viaspline.planning.methods.rounder_turns import RounderTurns
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
+from viaspline.planning.turning import gentle_strip
 from viaspline.planning.turning.turning_problem import MOST_LONGER, TurningProblem
 
 RADIUS_M, REQUIRED_M = 0.35, 0.5
@@ -118,6 +119,17 @@ def test_a_way_that_is_round_is_taken_before_one_that_is_a_little_sooner() -> No
     assert sharp.drivability.verdict == "rough"
     assert sharp.trajectory.duration < found.trajectory.duration
     assert found.trajectory.duration < MOST_LONGER * sharp.trajectory.duration
+
+
+def test_what_is_bent_too_sharply_is_bent_as_round_as_the_robot_and_sooner_than_lines_and_turns(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked = among_discs(241)
+    found = vs.plan(asked)
+    monkeypatch.setattr(gentle_strip, "LIMIT_PARTS", ())
+    as_laid = vs.plan(asked)
+    assert sharpest(found.path) >= 0.999 * RADIUS_M
+    assert found.trajectory.duration < 0.96 * as_laid.trajectory.duration
 
 
 def test_what_is_round_is_left_as_it_is() -> None:
