@@ -75,7 +75,9 @@ class LegRouter:
 
     @cached_property
     def _router(self) -> SpaceRouter:
-        return SpaceRouter(SearchRoom.of_world(self.problem.world))
+        world = self.problem.world
+        solids = [obstacle.solid() for obstacle in self.mission.world.standing]
+        return SpaceRouter(SearchRoom.of_world(world).knowing(world, solids))
 
     @cached_property
     def _asked(self) -> tuple[AskedPass, ...]:
@@ -150,6 +152,8 @@ class LegRouter:
         router = self._router.best_up_to(most)
         if isinstance(solid, Voxels):
             router = router.up_to(worth)
+            if self.problem.objective == "length":  # they aren't shorter: one search has to do
+                router = router.best_up_to(taut.cost)
         past = seeds(router, solid, *ends, self.problem.required, self._norm, taut)
         ways = [TautWay(seed.side, seed.route.points[1:-1]) for seed in past]
         for seed in past:

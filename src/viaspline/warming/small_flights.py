@@ -39,11 +39,12 @@ def fly_small() -> None:
 
 
 def flights() -> Iterator[Mission]:
-    """One over flat ground among single solids, one among voxels, one over hills."""
+    """One over flat ground among single solids, two among voxels, one over hills."""
     flat: Parts = {"ground": {"flat_m": 0}}
     ball: Parts = {"ball": {"center": [9, 8, 4], "radius": 1}}
     yield _mission(flat | {"altitude": {"max_m": 20, "above": "home"}, "known": _solids()}, [ball])
     yield _mission(flat | {"known": [{"voxels": _voxels()}]})
+    yield _among_voxels_alone()
     nodes = np.add.outer(np.sin(np.linspace(0, 3, 12)), np.cos(np.linspace(0, 3, 12)))
     hills: Parts = {"terrain": Terrain(nodes, 2.0, (-3.0, -3.0))}
     yield _mission({"ground": hills, "known": _solids()}, [ball])
@@ -63,6 +64,19 @@ def _mission(world: Parts, unseen: Sequence[Parts] = ()) -> Mission:
     return Mission.model_validate(
         {"world": {**world, "unseen": list(unseen)}, "robot": DRONE, "route": route}
     )
+
+
+def _among_voxels_alone() -> Mission:
+    """A ball behind a wall: cubes without ground are searched by kernels of their own."""
+    cubes = np.zeros((12, 12, 8), np.bool_)
+    cubes[5, :10] = True
+    world: Parts = {"bounds": [0, 0, 12, 12], "altitude": {"min_m": 0.4, "max_m": 7.6}}
+    ball = {key: value for key, value in DRONE.items() if key != "half_height_m"}
+    return Mission.model_validate({
+        "world": world | {"known": [{"voxels": Voxels(cubes, 1.0)}]},
+        "robot": ball | {"clearance_m": 0.1},
+        "route": {"start": [2.5, 2.5, 3.5], "goal": [9.5, 2.5, 3.5]},
+    })  # fmt: skip
 
 
 def _solids() -> list[Parts]:

@@ -6,7 +6,7 @@ Tested through ``space/routing/test_space_router``.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,6 +34,11 @@ class RouteQuery:
     norm: Floats
     gates: Floats
     margin: float
+
+    @property
+    def reversed(self) -> RouteQuery:
+        """The one for the way back, where climbing is sinking."""
+        return replace(self, ends=self.ends[::-1].copy(), norm=self.norm[[0, 2, 1]])
 
 
 def checked_ends(start: ArrayLike, goal: ArrayLike) -> Floats:

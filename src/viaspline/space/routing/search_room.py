@@ -1,12 +1,11 @@
-"""The space in which a route is searched, and the lattices in it.
-
-Tested through ``space/routing/test_space_router``.
-"""
+"""The space in which a route is searched, and the lattices in it."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -18,10 +17,15 @@ from viaspline.kernels.space.routing.lattice_nodes import MOST_ASIDE
 from viaspline.kernels.space.routing.route_protocol import PlaceLattice
 from viaspline.kernels.space.routing.voxel_block import VoxelBlock, voxel_block
 from viaspline.maps.voxels import Voxels
+from viaspline.mission.shapes.solids import Solid
 from viaspline.world.space.spatial_world import SpatialWorld
 
 _STEPS_ACROSS, _LAYERS, _MOST_ACROSS = 50, 4, 500
 _MARGIN_STEPS = 2.0
+_MOST_CUBES = 1.0  # a body and its clearance that reach farther are near too many cubes at once
+
+_BLOCKS: WeakKeyDictionary[Voxels, VoxelBlock] = WeakKeyDictionary()
+"""The blocks of all voxels that are still in use, without limits: rooms of a map share them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +40,8 @@ class SearchRoom:
         solids: A box about all solids, likewise; from inf to -inf where there are none.
         anchor: A place of the lattice that suits the world, and its step [m], (4,); a step of 0
             lets the search choose.
+        cubes: All that stands, without limits, where that is one block of voxels and the robot a
+            ball: what is asked of cubes alone is answered several times as fast.
     """
 
     packed: PackedSpace | VoxelBlock
@@ -43,6 +49,7 @@ class SearchRoom:
     limits: Floats
     solids: Floats
     anchor: Floats
+    cubes: VoxelBlock | None = None
 
     @classmethod
     def of_world(cls, world: SpatialWorld) -> SearchRoom:
@@ -64,6 +71,38 @@ class SearchRoom:
             solids[5] = max(solids[5], float(heights.max()) if heights.size else floor)
         return cls(packed, float(packed.core[0]), limits, solids, _voxel_anchor(packed))
 
+    def knowing(self, world: SpatialWorld, solids: Sequence[Solid]) -> SearchRoom:
+        """This one of a world, quicker where voxels alone stand in it.
+
+        Args:
+            world: Its world.
+            solids: All that stands there, as the world numbers them.
+        """
+        packed = world.packed
+        is_more = world.ground is not None or len(packed.fences) or packed.core.any()
+        if is_more or len(world) != 1 or len(solids) != 1 or not isinstance(solids[0], Voxels):
+            return self
+        return replace(self, cubes=_block_of(solids[0]))
+
+    def searched(self, radius: float, places: Floats) -> PackedSpace | VoxelBlock:
+        """What a search asks for ways that keep a radius from everything.
+
+        Args:
+            radius: [m].
+            places: Through which they lead [m], (n, 3).
+        """
+        cubes = self.cubes
+        if cubes is None or not 0.0 < radius <= _MOST_CUBES * cubes.frame[3]:
+            return self.packed
+        inward = np.array([radius, radius, 0.0])  # heights are those of the place itself
+        low, high = self.limits[:3] + inward, self.limits[3:] - inward
+        with np.errstate(invalid="ignore"):  # where nothing limits the places
+            low = np.where(low - self.limits[:3] < inward, np.nextafter(low, np.inf), low)
+            high = np.where(self.limits[3:] - high < inward, np.nextafter(high, -np.inf), high)
+        if (places < low).any() or (places > high).any():
+            return self.packed  # by a rounding: they keep the bounds
+        return cubes._replace(limits=np.concatenate([low, high]))
+
     @classmethod
     def of_voxels(cls, voxels: Voxels, radius: float) -> SearchRoom:
         """Of voxels alone, for a ball that stays inside of their box: the fast way.
@@ -74,7 +113,7 @@ class SearchRoom:
         """
         extent = np.array(voxels.extent)
         limits = np.concatenate([extent[:3] + radius, extent[3:] - radius])
-        block = voxel_block(voxels.blocked, voxels.cell, voxels.origin, limits)
+        block = _block_of(voxels)._replace(limits=limits)
         middle = extent[:3] + 0.5 * voxels.cell
         return cls(block, 0.0, limits, extent, np.array([*middle, voxels.cell]))
 
@@ -124,6 +163,16 @@ class SearchRoom:
         low = np.where(np.isfinite(self.limits[:3]), self.limits[:3], low)
         high = np.where(np.isfinite(self.limits[3:]), self.limits[3:], high)
         return low, np.maximum(low, high)
+
+
+def _block_of(voxels: Voxels) -> VoxelBlock:
+    """The cubes of a map, without limits."""
+    found = _BLOCKS.get(voxels)
+    if found is None:
+        everywhere = np.array([-np.inf] * 3 + [np.inf] * 3)
+        found = voxel_block(voxels.blocked, voxels.cell, voxels.origin, everywhere)
+        _BLOCKS[voxels] = found
+    return found
 
 
 def _lowest(packed: PackedSpace) -> float:

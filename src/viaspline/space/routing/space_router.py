@@ -23,6 +23,7 @@ from viaspline.kernels.space.routing.could_be_free import APART, are_apart
 from viaspline.kernels.space.routing.lazy_theta import lattice_way
 from viaspline.kernels.space.routing.pull_taut import taut_way
 from viaspline.kernels.space.routing.route_protocol import PlaceLattice
+from viaspline.kernels.space.routing.voxel_block import VoxelBlock
 from viaspline.kernels.space.routing.way_checks import way_cost, way_is_free
 from viaspline.kernels.space.space_distance import space_distances
 from viaspline.planning.problem.method import Found
@@ -48,6 +49,7 @@ _REACH = 0.05  # of the body's size: what is no further beyond that counts as to
 _LEAST_SIZE_M = 1e-3
 _CHEAPER = 10  # places among voxels alone for one among solids
 _COARSE = 1.1  # times what a taut way may cost: a way through a lattice that becomes it
+_ROUNDING = 1e-6  # of such a hair: by what answers about cubes may differ from those of a world
 _WORTH = 1.01  # times the best so far: what a way may cost before it is pulled taut
 
 
@@ -58,11 +60,12 @@ class SpaceRouter:
     Attributes:
         room: Where.
         weight: Of the estimate in lattice searches, from 1 on: greater is faster, and longer.
-        voxel_weight: Of it among voxels alone, where one search has to do.
+        voxel_weight: Of it in a room of voxels alone, where one search has to do.
+        cube_weight: Of it in a world in which voxels alone stand, searched there and back.
         least_cut: A corner is cut off where that gains as much, as a share of the whole cost.
         most_places: Contacts that are looked at.
         most_lines: Lines between contacts that are looked at.
-        most_nodes: Places of each lattice that are looked at; ten times as many among voxels.
+        most_nodes: Places of each lattice that are looked at; ten times as many among voxels alone.
         most_cells: Cells that are looked at for a proof.
         halvings: How often a lattice is halved.
         most_cost: A route that costs more needn't be found [m or s].
@@ -72,6 +75,7 @@ class SpaceRouter:
     room: SearchRoom
     weight: float = 1.1
     voxel_weight: float = 1.0
+    cube_weight: float = 1.05
     least_cut: float = 2e-4
     most_places: int = 1024
     most_lines: int = 1000
@@ -143,7 +147,7 @@ class SpaceRouter:
             if refusal := self._refused(query, halvings):
                 return refusal
             resolution = float(lattice.frame[3])
-        return self._gave_up(resolution)
+        return self._gave_up(query, resolution)
 
     def pulled(
         self, way: Floats, required: float, norm: Norm = LENGTH, gates: Floats = NO_GATES
@@ -168,7 +172,8 @@ class SpaceRouter:
     def _by_lattice(self, query: RouteQuery, lattice: PlaceLattice) -> TautRoute | None:
         """The better of two routes through the lattice, searched there and back.
 
-        Among voxels alone the way back isn't worth its time. What isn't found there, isn't back.
+        In a room of voxels alone the way back isn't worth its time. What isn't found there, isn't
+        back.
         """
         there = self._there(query, lattice)
         best = self._better(query, there, None)
@@ -176,32 +181,32 @@ class SpaceRouter:
             return best
         if not isinstance(self.room.packed, PackedSpace):
             return best
-        return self._better(query, self._back(query, lattice), best)
+        return self._better(query, self._there(query.reversed, lattice)[::-1].copy(), best)
 
     def _there(self, query: RouteQuery, lattice: PlaceLattice) -> Floats:
         """A way through the lattice, searched from the start."""
+        packed, space = self.room.packed, self.room.searched(query.radius, query.ends)
+        way = self._searched(space, query, lattice)
+        if space is packed or way_is_free(packed, query.gates, way, query.radius):
+            return way
+        return self._searched(packed, query, lattice)  # the quick one was off by a rounding
+
+    def _searched(
+        self, space: PackedSpace | VoxelBlock, query: RouteQuery, lattice: PlaceLattice
+    ) -> Floats:
+        """A way through the lattice that is free in a space."""
+        if isinstance(space, PackedSpace):
+            weight = self.weight
+        else:
+            weight = self.voxel_weight if space is self.room.packed else self.cube_weight
         way: Floats = lattice_way(
-            self.room.packed, query.gates, query.norm, lattice, query.ends[0], query.ends[1],
-            query.radius, self._weight, _COARSE * self.most_cost, self._most_nodes,
+            space, query.gates, query.norm, lattice, query.ends[0], query.ends[1], query.radius,
+            weight, _COARSE * self.most_cost, self._most_nodes(space),
         )[0]  # fmt: skip
         return way
 
-    def _back(self, query: RouteQuery, lattice: PlaceLattice) -> Floats:
-        """One that is searched from the goal, where climbing is sinking."""
-        way: Floats = lattice_way(
-            self.room.packed, query.gates, query.norm[[0, 2, 1]], lattice, query.ends[1],
-            query.ends[0], query.radius, self._weight, _COARSE * self.most_cost, self._most_nodes,
-        )[0]  # fmt: skip
-        return way[::-1].copy()
-
-    @property
-    def _weight(self) -> float:
-        return self.weight if isinstance(self.room.packed, PackedSpace) else self.voxel_weight
-
-    @property
-    def _most_nodes(self) -> int:
-        solid = isinstance(self.room.packed, PackedSpace)
-        return self.most_nodes if solid else _CHEAPER * self.most_nodes
+    def _most_nodes(self, space: PackedSpace | VoxelBlock) -> int:
+        return self.most_nodes * (1 if isinstance(space, PackedSpace) else _CHEAPER)
 
     def _by_contacts(self, query: RouteQuery, best: TautRoute | None) -> Floats:
         """One from contact to contact, if it may be cheaper than the best."""
@@ -231,7 +236,13 @@ class SpaceRouter:
                 kept = radius + hair
                 break
         least = self.least_cut * float(way_cost(norm, way))
-        points = taut_way(packed, gates, norm, way, kept, _REACH * size, least)
+        space = self.room.searched(kept, way)
+        points = taut_way(space, gates, norm, way, kept, _REACH * size, least)
+        if space is not packed:
+            held = kept - _ROUNDING * (kept - radius)
+            if way_is_free(packed, gates, points, held):
+                return TautRoute(points, float(way_cost(norm, points)), held)
+            points = taut_way(packed, gates, norm, way, kept, _REACH * size, least)
         return TautRoute(points, float(way_cost(norm, points)), kept)
 
     def _refused_end(self, ends: Floats, side: int, radius: float) -> SpaceRefusal | None:
@@ -268,11 +279,12 @@ class SpaceRouter:
             (float(place[0]), float(place[1]), float(place[2])),
         )
 
-    def _gave_up(self, resolution: float) -> SpaceGaveUp:
+    def _gave_up(self, query: RouteQuery, resolution: float) -> SpaceGaveUp:
+        most = self._most_nodes(self.room.searched(query.radius, query.ends))
         return SpaceGaveUp(
             tried=(
                 "contacts",
-                f"lattices down to {resolution:.3g} m, with {self._most_nodes} places each",
+                f"lattices down to {resolution:.3g} m, with {most} places each",
             ),
             would_help="a finer lattice, a smaller clearance",
             reason=f"no route was found at a resolution of {resolution:.3g} m",
