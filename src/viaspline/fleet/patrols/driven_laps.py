@@ -33,6 +33,9 @@ from viaspline.trajectory.limits import Station
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.whole_plan import fastest_law, stations
 
+SAME_PLACE_SHARE = 1e-9
+"""Of the way to a place, which is rounding."""
+
 
 def driven_laps(lap: AnyPlan, laps: int) -> AnyPlan:
     """A plan of several laps, with a halt at the start after each.
@@ -197,3 +200,19 @@ def write_law(law: Trajectory, courses: FleetCourses, robot: int, laws: FleetLaw
     arrive, leave, speed = law_at_nodes(on_nodes(law, nodes), nodes)
     whole.arrive[part], whole.leave[part], whole.speed[part] = arrive, leave, speed
     whole.is_timed[robot] = True
+
+
+def stay_between(lap: AnyPlan) -> float:
+    """How long a robot has to stand between two laps, beyond its stay at the end of one [s].
+
+    Told by the stays themselves: how long laps take differs by how finely they are timed.
+    """
+    twice = driven_laps(lap, 2)
+    between = _stay_at(twice.trajectory, float(seams_of(twice.path, 2)[1]))
+    return max(between - _stay_at(lap.trajectory, lap.path.length), 0.0)
+
+
+def _stay_at(law: Trajectory, place: float) -> float:
+    """How long a law stands at a place of its path [m]: [s]."""
+    times = law.times[np.abs(law.distances - place) <= SAME_PLACE_SHARE * (1.0 + place)]
+    return float(np.ptp(times)) if times.size else 0.0

@@ -2,7 +2,8 @@
 
 Patrols are timed one after the other, each among the laps of those before it, which come again
 every period, before as well as after. Where one needs longer than the period, for its way or for
-those that it lets pass, the period gets longer and all are timed anew. One that finds no time from
+those that it lets pass, it is timed before the others and all anew; where that doesn't help either,
+in some orders, the period gets longer. One that finds no time from
 when it may set out tries to set out when one of the others is back home. Where no patrol passes the
 start of another, this comes to an end: in a period as long as all laps together each can wait at
 home until all others are back.
@@ -20,7 +21,7 @@ from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_along, fleet_path
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.patrols.driven_laps import driven_laps, seams_of, write_law
+from viaspline.fleet.patrols.driven_laps import driven_laps, seams_of, stay_between, write_law
 from viaspline.fleet.patrols.repeated_laws import repeated_law, set_out
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import standing_laws
@@ -37,6 +38,8 @@ MOST_LAPS_A_PERIOD = 8
 """A patrol whose lap is short drives several in a period, up to so many."""
 WINDOW = 5
 """Periods that a lap is timed among: one before it, and three after that in which it may begin."""
+MOST_TIMED = 1000
+"""Rounds that are timed in other orders before a period gets longer."""
 LONGER_SHARE = 1.08
 """By so much a period grows that is too short."""
 LONGEST_SHARE = 4.0
@@ -45,8 +48,6 @@ MOST_DEPARTURES = 60
 """So many times at which others are back home are tried by one that finds no time before."""
 SAME_S = 1e-9
 """Times that are no farther apart are one."""
-SAME_PLACE_SHARE = 1e-9
-"""Of the way to a place, which is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +98,7 @@ def patrol_rhythm(
     timing = _RoundTiming.of(members, laps, separation)
     period = timing.shortest
     while True:
-        found = timing.timed(period)
+        found = timing.timed_in_some_order(period)
         if isinstance(found, dict):
             break
         longest, who, whom = found
@@ -170,7 +171,7 @@ class _RoundTiming:
         crossings = crossings_of(courses, np.arange(len(rounds)))
         passages = passages_of(courses.packed, crossings.packed)
         rides = rides_of(members, list(rounds.values()), alone)
-        stays = np.array([_stay_between(laps[name]) for name in rounds])
+        stays = np.array([stay_between(laps[name]) for name in rounds])
         return cls(members, counts, rounds, courses, crossings, passages, rides, seams, stays)
 
     @property
@@ -189,12 +190,36 @@ class _RoundTiming:
         rounds = self.rounds.values()
         return np.array([set_out(one.trajectory).duration for one in rounds]) + self.stays
 
-    def timed(self, period: float) -> dict[str, Trajectory] | tuple[float, str, str]:
-        """The laws of all rounds by name; or what one takes [s], which, and who is in its way."""
+    def timed_in_some_order(self, period: float) -> dict[str, Trajectory] | tuple[float, str, str]:
+        """The laws of all rounds by name; or what one takes [s], which, and who is in its way.
+
+        Who finds no time comes before the others of its priority in the next order.
+        """
+        order, tried = self._order(), set[tuple[int, ...]]()
+        names = [one.name for one in self.members]
+        first: tuple[float, str, str] | None = None
+        while tuple(order) not in tried and len(tried) <= MOST_TIMED // len(order):
+            tried.add(tuple(order))
+            found = self._timed(period, order)
+            if isinstance(found, dict):
+                return found
+            first = first or found
+            late = names.index(found[1])
+            rank = self.members[late].priority
+            at = next(k for k, robot in enumerate(order) if self.members[robot].priority == rank)
+            order.remove(late)
+            order.insert(at, late)
+        assert first is not None
+        return first
+
+    def _timed(
+        self, period: float, order: Sequence[int]
+    ) -> dict[str, Trajectory] | tuple[float, str, str]:
+        """The laws, or what one takes, of rounds that are timed one after the other in an order."""
         laws = standing_laws(self.courses)
         departs = self.rides.packed.depart
         found: dict[str, Trajectory] = {}
-        for robot in self._order():
+        for robot in order:
             name = self.members[robot].name
             law = self._soonest(robot, period, laws, list(found.values()))
             if isinstance(law, tuple):
@@ -272,19 +297,3 @@ class _RoundTiming:
         begun = law.delayed((law.start_time % period) - law.start_time - period)
         again = repeated_law(begun, self.seams[self.members[robot].name], period)
         write_law(again, self.courses, len(self.members) + robot, laws)
-
-
-def _stay_between(lap: AnyPlan) -> float:
-    """How long a robot has to stand between two laps, beyond its stay at the end of one [s].
-
-    Told by the stays themselves: how long laps take differs by how finely they are timed.
-    """
-    twice = driven_laps(lap, 2)
-    between = _stay_at(twice.trajectory, float(seams_of(twice.path, 2)[1]))
-    return max(between - _stay_at(lap.trajectory, lap.path.length), 0.0)
-
-
-def _stay_at(law: Trajectory, place: float) -> float:
-    """How long a law stands at a place of its path [m]: [s]."""
-    times = law.times[np.abs(law.distances - place) <= SAME_PLACE_SHARE * (1.0 + place)]
-    return float(np.ptp(times)) if times.size else 0.0
