@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import os
 import signal
@@ -145,7 +146,9 @@ def test_without_distributed_it_is_said_what_to_install(monkeypatch: pytest.Monk
 def test_where_no_scheduler_answers_it_is_said_so(
     monkeypatch: pytest.MonkeyPatch, address: str
 ) -> None:
-    pytest.importorskip("distributed")
+    distributed = pytest.importorskip("distributed")
     monkeypatch.setattr("viaspline.fleet.laying.chosen_workers.CONNECT_S", 0.5)
     with pytest.raises(WorkersError, match="no scheduler"), cluster_workers(address):
         pass
+    clients = [one for one in gc.get_objects() if type(one) is distributed.Client]
+    assert {one.status for one in clients} <= {"closed"}  # else the next one might wait for ever

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from typing import Any
 
@@ -64,9 +64,14 @@ def cluster_workers(scheduler: str) -> Iterator[LayingWorkers]:
             "a cluster needs dask.distributed, which isn't installed; "
             'pip install "viaspline[cluster]"'
         ) from error
+    client = distributed.Client.__new__(distributed.Client)
     try:
-        client = distributed.Client(scheduler, timeout=CONNECT_S)
+        client.__init__(scheduler, timeout=CONNECT_S)
     except (OSError, ValueError) as error:
+        # Left to the garbage collector it would close itself while another one begins, and both
+        # would wait for the same lock for ever.
+        with suppress(Exception):
+            client.close()
         raise WorkersError(
             f"no scheduler of dask answers at {scheduler}; start one (dask scheduler), and give "
             "the address that it tells"
