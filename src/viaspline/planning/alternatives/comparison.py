@@ -118,14 +118,13 @@ class Comparison:
     def _why_passed_over(self, curve: Curve) -> str:
         """Why a curve isn't taken that costs less than the one that is."""
         whole, taken = curve.whole_cost, self.winner.whole_cost
-        own_radius = self.leg.requirements.outer_radius
-        if (
-            self.winner.measured.max_curvature * own_radius
-            <= 1.0
-            < (curve.measured.max_curvature * own_radius)
-        ):
+        if self._is_round(self.winner) and not self._is_round(curve):
             return "it turns more sharply than the robot itself"
         if whole is None or taken is None or whole < taken:
             return f"found for the ledger alone: {NOT_WEIGHED}"
         what = "sooner" if self.leg.requirements.objective.is_time else "shorter"
         return f"the whole path is no {what} with it"
+
+    def _is_round(self, curve: Curve) -> bool:
+        """Whether a curve turns no more sharply than the robot itself."""
+        return curve.measured.max_curvature * self.leg.requirements.outer_radius <= 1.0

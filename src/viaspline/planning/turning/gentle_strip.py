@@ -43,7 +43,8 @@ def gentle_strips(
 
     Yields:
         That of the least tension that takes hardly longer than it, or than the fastest: with places
-        near to each other, then as it was found, which is less smooth; those that rest, and bend
+        near to each other, then as it was found, which is less smooth. Then those of other tensions
+        that are sooner than the run, and all of it with more places. Only those that rest, and bend
         less than the run.
     """
     for strip in _finer_and_finer(run, world, body):

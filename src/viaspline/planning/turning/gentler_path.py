@@ -142,7 +142,7 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
 
 
 def _strips(run: BendableRun, problem: DrivenProblem, price: RunPrice) -> Iterator[LaidRun]:
-    """The strips in the place of a run, as is kept beside them in the first place."""
+    """The strips in the place of a run, by what is kept beside them: the usual first."""
     needs = problem.requirements
     each = STRIP_SPAN_S if needs.footprint is None else STRIP_BODY_SPAN_S
     for body in strip_bodies(needs, run.length):
