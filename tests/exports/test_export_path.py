@@ -165,6 +165,16 @@ def test_what_can_not_be_meant_is_refused_by_name(
         export(planned_yard(), tmp_path / "no" / "x.csv")
 
 
+def test_a_path_whose_corners_may_not_be_cut_says_what_autopilots_make_of_no_radius(
+    tmp_path: Path,
+) -> None:
+    done = export(planned_yard(), tmp_path / "x.plan", origin=ORIGIN, acceptance=0.0)
+    assert done.proof.acceptance == 0.0
+    assert any("PX4 NAV_ACC_RAD" in note for note in done.notes)
+    done = export(planned_yard(), tmp_path / "x.plan", origin=ORIGIN)
+    assert not any("PX4 NAV_ACC_RAD" in note for note in done.notes)
+
+
 def test_an_acceptance_radius_that_is_not_clear_is_refused_with_the_place(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"at \(.*beside tank; give a smaller acceptance radius"):
         export(planned_yard(), tmp_path / "x.plan", origin=ORIGIN, acceptance=200.0)

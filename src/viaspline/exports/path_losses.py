@@ -87,7 +87,8 @@ def _of_driving(plan: Plan | SpatialPlan, table: PathTable) -> Iterator[str]:
     else:
         yield (
             "it is proven for vehicles that drive up to each point and turn there: no larger "
-            "acceptance radius was found to be clear"
+            "acceptance radius was found to be clear. Autopilots take the 0 of the file for their "
+            "own (PX4 NAV_ACC_RAD, ArduPilot WP_RADIUS or WPNAV_RADIUS), and cut corners by it"
         )
     if np.any(dwells != np.round(dwells)):
         yield "ArduPilot holds for whole seconds: parts of them are cut off"
