@@ -20,6 +20,7 @@ from viaspline.kernels.fleet.packed_paths import PackedPaths
 from viaspline.mission.space.flying_body import FlyingBody
 from viaspline.planner import Plan
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.space.meeting.gap_of_bodies import SpatialCourses
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.trajectory.trajectory import Trajectory
@@ -35,6 +36,7 @@ OFF_PATH_SHARE = 1e-9
 """Of a path's length, by which its time law may end beyond it by rounding."""
 
 
+@told_in_lines
 @dataclass(frozen=True, eq=False)
 class FleetCourses(ComparedByValue):
     """Paths of robots, cut into cells.

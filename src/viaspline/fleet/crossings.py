@@ -17,6 +17,7 @@ from viaspline.kernels.fleet.neighbouring import mark_neighbours
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_pieces import PackedPieces, pieces_of
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.space.meeting.spatial_crossings import spatial_crossings
 
 MAX_BOXES = 50_000_000
@@ -26,6 +27,7 @@ BOXES_A_PAIR = 4
 """How many boxes a pair of pieces that are near each other has at least, in the mean."""
 
 
+@told_in_lines
 @dataclass(frozen=True, eq=False)
 class FleetCrossings(ComparedByValue):
     """Pairs of places on two paths at which two robots would be too near each other.

@@ -10,10 +10,12 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 
+@told_in_lines
 @dataclass(frozen=True, eq=False)
 class FleetLaws(ComparedByValue):
     """When every robot of a fleet is where.

@@ -48,6 +48,9 @@ def _text(value: object) -> str:
         if isinstance(value, list):
             return f"[{inside}]"
         return f"({inside},)" if len(value) == 1 else f"({inside})"
+    if isinstance(value, tuple) and hasattr(value, "_fields"):  # named: what kernels see
+        said = zip(value._fields, map(short, value), strict=True)
+        return one_line(type(value).__name__, said)
     if hasattr(value, "__repr_args__"):  # a value with keys, which alone takes several lines
         return one_line(type(value).__name__, value.__repr_args__())
     return repr(value)

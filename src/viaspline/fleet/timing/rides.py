@@ -18,12 +18,14 @@ from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.planner import Plan
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.timing.retime_in_space import along_limits
 from viaspline.trajectory.coupled import is_coupled
 from viaspline.trajectory.limits import Limits
 
 
+@told_in_lines
 @dataclass(frozen=True, eq=False)
 class FleetRides(ComparedByValue):
     """The fastest law of every robot where it is alone.

@@ -127,7 +127,7 @@ class WorkBudget:
 
     limit: float
     spent: float = 0.0
-    finished: dict[Hashable, Any] = field(default_factory=dict)
+    finished: dict[Hashable, Any] = field(default_factory=dict, repr=False)
     has_gained: bool = False
     _under_way: list[Hashable] = field(default_factory=list, init=False, repr=False)
     """What was taken up for parts that aren't over yet, the first one first."""
