@@ -1,12 +1,15 @@
 from __future__ import annotations
 
+import io
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from PIL import Image
 
-from viaspline.report.canvas import new_figure
+from viaspline.report.canvas import new_figure, png
 from viaspline.report.labels import Labels
 
 
@@ -53,6 +56,26 @@ def test_a_label_keeps_off_the_path() -> None:
     (box,) = _boxes(axes)
     on_screen = axes.transData.transform(path)
     assert not ((on_screen > box[:2]) & (on_screen < box[2:])).all(axis=1).any()
+
+
+def test_all_letters_of_a_label_are_drawn_within_the_map() -> None:
+    figure = new_figure(4, 2, 100)
+    axes = figure.add_axes((0.1, 0.1, 0.8, 0.8))
+    axes.set(xlim=(0, 10), ylim=(0, 10), xticks=[], yticks=[])
+    labels = Labels(axes)
+    labels.add("new path, 454 s (reflex)", (9.8, 5.0), colour="#ff0000")
+    lines = np.array([(x, y) for x in np.linspace(0, 5.8, 90) for y in np.linspace(0, 10, 90)])
+    labels.place(lines, np.array([[9.8, 5.0]]))
+
+    def columns() -> np.ndarray:
+        seen = np.asarray(Image.open(io.BytesIO(png(figure))).convert("RGB")).astype(int)
+        return np.flatnonzero((seen[..., 0] - seen[..., 1:].max(axis=2) > 60).any(axis=0))
+
+    within = columns()
+    for text in axes.texts:
+        text.set_clip_on(False)
+    assert within.size > 50
+    assert np.array_equal(within, columns())
 
 
 def test_a_label_goes_on_a_thing_that_is_large_enough() -> None:

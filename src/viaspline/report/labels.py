@@ -9,6 +9,7 @@ import shapely
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
+from matplotlib.textpath import text_to_path
 
 from viaspline.kernels.arrays import Floats
 from viaspline.report.box_sums import BoxSums
@@ -218,7 +219,8 @@ class Labels:
             figure=self._axes.figure,
         )  # fmt: skip
         extent = text.get_window_extent(renderer_of(self._axes.figure))
-        size: Floats = np.ceil(np.array([extent.width, extent.height])) + 2.0 * BETWEEN_PX
+        width = max(extent.width, _outlined_width(text, self._axes.figure.dpi))
+        size: Floats = np.ceil(np.array([width, extent.height])) + 2.0 * BETWEEN_PX
         return size
 
     def _draw(self, label: _Label, anchor: Floats, middle: Floats, ends: Floats) -> None:
@@ -236,6 +238,18 @@ class Labels:
             zorder=20, parse_math=False, linespacing=1.05, clip_on=True,
             path_effects=halo,
         )  # fmt: skip
+
+
+def _outlined_width(text: Text, dpi: float) -> float:
+    """How wide a text with a halo is [pixels].
+
+    Its letters are drawn as outlines, which aren't fitted to whole pixels: they may be wider than
+    those that an extent is of.
+    """
+    of_line = text_to_path.get_text_width_height_descent
+    lines = text.get_text().split("\n")
+    points = max(of_line(line, text.get_fontproperties(), False)[0] for line in lines)
+    return float(points) * dpi / 72.0
 
 
 def _most(labels: list[_Label]) -> list[_Label]:
