@@ -363,3 +363,35 @@ def test_nothing_is_wider_than_the_screen(
     box = page.page.locator("#solid").bounding_box()
     assert box["x"] >= 0
     assert box["x"] + box["width"] <= width
+
+
+@pytest.mark.parametrize("size", [(1280, 820), (390, 844)])
+def test_every_point_of_the_route_is_seen_at_first_and_until_the_view_is_moved(
+    visit: Visit, file: Path, size: tuple[int, int]
+) -> None:
+    page = visit(file, width=size[0], height=size[1])
+    covers = "#tools, #views, #fit, #left, #inspector, #topbar"
+
+    def hidden() -> list[Any]:
+        boxes = [page.page.locator(one).bounding_box() for one in covers.split(", ")]
+        seen = page.page.locator("#map").bounding_box()
+        places = [page.place(at) for at in ([0, 0], [40, 0], [90, 0], [100, 10], [110, 30])]
+        return [
+            (x, y) for x, y in places
+            if any(box and _is_in(box, x, y) for box in boxes) or not _is_in(seen, x, y)
+        ]  # fmt: skip
+
+    assert hidden() == []
+    page.page.set_viewport_size({"width": size[0] - 40, "height": size[1] - 120})
+    page.until(f"studio.camera.height < {size[1]}")
+    page.page.wait_for_timeout(300)
+    assert hidden() == []
+    page.js("studio.camera.zoom(2, 100, 300)")
+    moved = page.js("studio.camera.scale")
+    page.page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.page.wait_for_timeout(300)
+    assert page.js("studio.camera.scale") == moved
+
+
+def _is_in(box: dict[str, float], x: float, y: float) -> bool:
+    return box["x"] <= x <= box["x"] + box["width"] and box["y"] <= y <= box["y"] + box["height"]

@@ -269,7 +269,8 @@ app.fit = () => {
   const narrow = document.body.clientWidth <= 760;
   app.space?.solid?.fit();
   app.space?.solid?.later("route");
-  app.camera.fit(box, narrow ? { top: 70, right: 24, bottom: 40 + app.compare.card.covers, left: 24 } : { top: 62, right: 40, bottom: 48, left: 76 });
+  app.camera.fit(box, narrow ? { top: app.space?.isOn ? 118 : 70, right: 24, bottom: 40 + app.compare.card.covers, left: 24 } : { top: 62, right: 40, bottom: 48, left: 76 });
+  app.fitted = app.camera.view;
   app.store.tell("view");
 };
 app.fitSoon = () => {
@@ -352,6 +353,7 @@ onTheme(() => app.scene.later());
 app.exists = exists;
 new ResizeObserver(() => {
   const first = app.camera.width === 1;
+  const isUntouched = app.camera.view === app.fitted;
   app.scene.resize();
-  if (first && app.store.name !== undefined) app.fit();
+  if ((first || isUntouched) && app.store.name !== undefined) app.fit();
 }).observe(app.scene.canvas);

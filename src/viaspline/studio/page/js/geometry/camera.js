@@ -37,6 +37,11 @@ export class Camera {
     this.y += dy / this.scale;
   }
 
+  /** What is in the middle, and how large: it stays the same until the view is moved. */
+  get view() {
+    return `${this.x} ${this.y} ${this.scale}`;
+  }
+
   /** Show a box whole. @param {number[]} box x_min, y_min, x_max, y_max [m] @param {{top: number, right: number, bottom: number, left: number}} inset */
   fit(box, inset) {
     const w = Math.max(box[2] - box[0], 1e-3), h = Math.max(box[3] - box[1], 1e-3);
