@@ -259,3 +259,23 @@ def test_a_way_that_turns_more_sharply_than_the_robot_counts_for_what_it_becomes
     _, candidates = cheapest([sharp, gentle, slow])
     assert [one.chosen for one in candidates] == [False, True, False]
     assert [one.passed_over for one in candidates] == [SHARP, None, None]
+
+
+def test_where_a_zone_is_slow_the_way_beside_it_is_flown() -> None:
+    tower = {"name": "tower", "circle": {"center": [50, 1], "radius": 8}, "height_m": [0, 30]}
+    zone = {"polygon": [[20, -40], [80, -40], [80, 0], [20, 0]], "max_speed_mps": 0.3}
+    world = {
+        "altitude": {"min_m": 2, "max_m": 30, "above": "home"},
+        "ground": {"flat_m": 0},
+        "known": [tower],
+        "speed_zones": [zone],
+    }
+    robot = {"radius_m": 0.5, "max_speed_mps": 2}
+    route = {"start": [0, 0, 10], "goal": [100, 0, 10]}
+    plan = vs.plan(Mission.model_validate({"world": world, "robot": robot, "route": route}))
+    assert plan.trajectory.duration < 56.0
+    (entry,) = plan.ledger
+    assert entry.chosen is not None
+    assert entry.chosen.side == "left"
+    right = [one.duration for one in entry.candidates if one.side.startswith("right")]
+    assert min(one for one in right if one is not None) > 100.0

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.path import Path
+from viaspline.curve.slow_parts import ZONE_EDGE_M, slow_parts
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.world_spec import SpeedZone
@@ -17,7 +18,6 @@ from viaspline.planner import plan
 from viaspline.robot.simulator import simulate
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
-from viaspline.trajectory.slow_zones import ZONE_EDGE_M, slow_parts
 
 seeds = st.integers(0, 2**32 - 1)
 LIMITS = Limits(max_speed=2.0, max_accel=1.0)

@@ -104,7 +104,7 @@ def cost_of(problem: SpatialProblem) -> Callable[[Floats], float]:
 def law_of(problem: SpatialProblem, path: Path) -> Trajectory:
     """The fastest law along a curve alone, from rest to rest, wherever the body looks."""
     ahead = YawProfile(np.array([0.0, path.length]), np.zeros(2))
-    return retime_in_space(path, problem.limits, (), ahead)
+    return retime_in_space(path, problem.limits, (), ahead, zones=problem.zones)
 
 
 def away_from_things(problem: SpatialProblem) -> Away:

@@ -11,6 +11,7 @@ from typing import Protocol, cast
 
 import numpy as np
 
+from viaspline.curve.slow_parts import slow_parts
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.world_spec import SpeedZone
@@ -25,7 +26,7 @@ from viaspline.trajectory.cells import (
 from viaspline.trajectory.coupled import Profile, Stage, cell_size_for, coupled_profile, is_coupled
 from viaspline.trajectory.curvature_limited import Cubic, bend_profile
 from viaspline.trajectory.limits import Limits
-from viaspline.trajectory.slow_zones import Slow, slow_parts
+from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.turned import TurnedCurve, turned
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
 import viaspline as vs
+from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planning.checking.driving_time import driving_time, straight_time
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.trajectory.limits import Limits
@@ -70,7 +72,7 @@ def corner_time(radius: float, turn: float, kept: float, pace: Pace) -> float:
 
 @given(st.floats(0.05, 2.5), st.floats(0.0, 5.0))
 def test_the_radius_of_a_corner_is_the_fastest_one(turn: float, kept: float) -> None:
-    (radius,) = PACE.corner_radii(np.array([turn]), np.array([kept]))
+    (radius,) = PACE.corner_radii(np.array([turn]), np.array([kept]), np.array([PACE.speed]))
     best = minimize_scalar(
         lambda r: corner_time(r, turn, kept, PACE), bounds=(max(kept, 0.01), 12.0), method="bounded"
     )
@@ -80,4 +82,23 @@ def test_the_radius_of_a_corner_is_the_fastest_one(turn: float, kept: float) -> 
 
 def test_without_a_limit_across_the_path_what_is_kept_is_hugged() -> None:
     pace = Pace(speed=3.0, accel=1.0, brake=1.0, lateral=math.inf)
-    assert pace.corner_radii(np.array([1.0, -2.0]), np.array([0.0, 2.0])).tolist() == [0.0, 2.0]
+    turns, kept, speeds = np.array([1.0, -2.0]), np.array([0.0, 2.0]), np.full(2, pace.speed)
+    assert pace.corner_radii(turns, kept, speeds).tolist() == [0.0, 2.0]
+
+
+@settings(max_examples=40, deadline=None)
+@given(seeds)
+def test_in_zones_it_takes_about_as_long_as_the_law_says(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    curve = vs.CardinalSpline(rng.uniform(0, 60, (rng.integers(2, 7), 2)), tension=0.2)
+    zones = []
+    for _ in range(rng.integers(1, 4)):
+        (x, y), (w, h) = rng.uniform(0, 50, 2), rng.uniform(2, 30, 2)
+        corners = [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
+        zones.append(vs.SpeedZone(polygon=corners, max_speed_mps=rng.uniform(0.2, 4.0)))
+    robot = RobotSpec(max_speed_mps=3.0, max_accel_mps2=1.0, max_brake_mps2=0.7)
+    limits = Limits(max_speed=3.0, max_accel=1.0, max_brake=0.7)
+    exact = retime(curve, limits, zones=zones).duration
+    pace = replace(Pace.of(robot, zones), lateral=math.inf)
+    found = driving_time(np.array(curve.spans), pace, rests(curve))
+    assert found == pytest.approx(exact, rel=1e-2)

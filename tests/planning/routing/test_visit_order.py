@@ -191,6 +191,23 @@ def test_where_time_counts_few_via_points_come_in_the_soonest_order(
     assert found == pytest.approx(best, abs=0.15 * count)  # turns are looked up by whole degrees
 
 
+@pytest.mark.parametrize(
+    ("zone", "first"),
+    [([[1, -2], [9, -2], [9, 2], [1, 2]], "west"), ([[-2, 1], [2, 1], [2, 9], [-2, 9]], "south")],
+)
+def test_an_order_whose_ways_miss_a_slow_zone_is_sooner(zone: list[Any], first: str) -> None:
+    """Either order is as long and turns as much: one begins along the south, one along the west."""
+    via = [{"at": [10, 0], "name": "south"}, {"at": [0, 10], "name": "west"}]
+    asked = vs.Mission.model_validate(
+        {
+            "world": {"speed_zones": [{"polygon": zone, "max_speed_mps": 0.5}]},
+            "robot": {"max_speed_mps": 4.0, "max_accel_mps2": 1.0},
+            "route": {"start": [0, 0], "via": via, "goal": [10, 10], "order": "shortest"},
+        }
+    )
+    assert in_order(asked).route.via[0].name == first
+
+
 def test_a_longer_round_is_taken_that_turns_less() -> None:
     places = [[5, 54], [38, 54], [3, 4], [14, 78], [24, 47], [79, 56]]
     robot = {"max_speed_mps": 4.0, "max_accel_mps2": 1.0}

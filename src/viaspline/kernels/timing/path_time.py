@@ -90,7 +90,7 @@ def _step_time(
 
 @kernel
 def path_time(
-    spans: Floats, rests: Flags, top: float, accel: float, brake: float, lateral: float,
+    spans: Floats, rests: Flags, tops: Floats, accel: float, brake: float, lateral: float,
     yaw_rate: float,
 ) -> float:  # fmt: skip
     """The time from the first place to the last [s].
@@ -99,7 +99,7 @@ def path_time(
         spans: Bézier control polygons [m], (m, 4, d).
         rests: Whether the robot stands at each joint, (m + 1,); where it doesn't at an end, it
             comes and goes as fast as it may.
-        top: Largest speed [m/s].
+        tops: Largest speed on each span [m/s], (m,).
         accel: Largest acceleration along the curve [m/s²].
         brake: Largest deceleration [m/s²].
         lateral: Largest v² times curvature [m/s²].
@@ -109,9 +109,9 @@ def path_time(
     count = PLACES_PER_SPAN * m
     steps, caps, squares = np.empty(count), np.empty(count), np.empty(count + 1)
     velocity, bend = np.empty(d), np.empty(d)
-    limits = (top, lateral, yaw_rate)
     for k in range(count):
         i, place = k // PLACES_PER_SPAN, (k % PLACES_PER_SPAN + 0.5) / PLACES_PER_SPAN
+        limits = (tops[i], lateral, yaw_rate)
         speed, caps[k] = _place(spans, i, place, limits, velocity, bend)
         steps[k] = speed / PLACES_PER_SPAN
     squares[count] = 0.0 if rests[m] else caps[count - 1]

@@ -232,6 +232,6 @@ class Requirements(ComparedByValue):
             ),
             turn_radius=robot.turn_radius,
             turns_on_spot=robot.turns_on_spot,
-            objective=Objective(mission.route.optimise, Pace.of(robot)),
+            objective=Objective(mission.route.optimise, Pace.of(robot, mission.world.speed_zones)),
             detours=mission.route.detours,
         )

@@ -1,8 +1,8 @@
 """What a round costs that serves via points in an order: its length, or the time it takes.
 
-Time is that of straight lines as long as the ways between the points, from halt to halt, and of the
-turns at those that the robot runs through: what an order is about. What the ways themselves bend is
-left out.
+Time is that of straight lines as long as the ways between the points, from halt to halt, more
+slowly in zones, and of the turns at those that the robot runs through: what an order is about. What
+the ways themselves bend is left out.
 
 Tested through ``planning/routing/test_visit_order``.
 """
@@ -28,11 +28,13 @@ class WaysBetween:
         lengths: From each to each [m], infinite where there is none, (n, n).
         leaving: In which direction each begins [rad], (n, n).
         arriving: In which it ends [rad], (n, n).
+        slowed: How much longer each takes for the zones on it [s], (n, n).
     """
 
     lengths: Floats
     leaving: Floats
     arriving: Floats
+    slowed: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +81,7 @@ class RoundTime:
         legs = list(pairwise(stops))
         for k, (i, j) in enumerate(legs):
             run += float(ways.lengths[i, j])
+            total += float(ways.slowed[i, j])
             if self.stands[j] or k == len(legs) - 1:
                 total += straight_time(run, self.pace) if run < math.inf else math.inf
                 run = 0.0

@@ -22,6 +22,7 @@ from viaspline.kernels.world.clusters import group_labels
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import ViaPoint
+from viaspline.planning.checking.driving_time import lost_in_zones
 from viaspline.planning.problem.method import Outcome
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import WholeLeg
@@ -128,11 +129,12 @@ def ways_between(mission: Mission, world: World) -> WaysBetween:
     router = Router(world, requirements.required, at)
     indices = sided(world)
     labels = group_labels(world.packed, 2.0 * requirements.required) if indices.size else indices
-    lengths, leaving, arriving = (np.zeros((len(at), len(at))) for _ in range(3))
+    lengths, leaving, arriving, slowed = (np.zeros((len(at), len(at))) for _ in range(4))
     for i, j in permutations(range(len(at)), 2):
         if i > j and not indices.size:
             lengths[i, j] = lengths[j, i]
             leaving[i, j], arriving[i, j] = arriving[j, i] + math.pi, leaving[j, i] + math.pi
+            slowed[i, j] = slowed[j, i]
             continue
         sides = AskedSides.of(
             WholeLeg(at[i], at[j]), indices, world, requirements.required, lambda: labels
@@ -142,10 +144,12 @@ def ways_between(mission: Mission, world: World) -> WaysBetween:
         if found.value is None:
             lengths[i, j] = np.inf
             continue
-        first, last = np.diff(found.value.corners[[0, 1, -2, -1], X : Y + 1], axis=0)[::2].tolist()
+        corners = found.value.corners[:, X : Y + 1]
+        first, last = np.diff(corners[[0, 1, -2, -1]], axis=0)[::2].tolist()
         lengths[i, j] = found.value.length
         leaving[i, j], arriving[i, j] = math.atan2(*first[::-1]), math.atan2(*last[::-1])
-    return WaysBetween(lengths, leaving, arriving)
+        slowed[i, j] = lost_in_zones(corners, requirements.objective.pace)
+    return WaysBetween(lengths, leaving, arriving, slowed)
 
 
 def _found(

@@ -234,7 +234,7 @@ class TurningProblem(PathProblem):
         pace, stands = self.requirements.objective.pace, self.legs[leg].stands
         line = np.zeros((1, 4, 2))
         line[0, :, 0] = np.linspace(0.0, self.shortest_row.taut_paths[leg].length, 4)
-        least = leg_time(line, pace, stands)
+        least = leg_time(line, pace.beside_zones, stands)
         return leg_time(spline_path.leg(leg), pace, stands) > MUCH_LOST * least
 
     def ideal_time(self, sequence: ViaSequence, bends: Bends) -> float:
@@ -245,7 +245,8 @@ class TurningProblem(PathProblem):
         at_vias = ideal.bends.vias != DETOUR
         joints = ideal.begins[: len(at_vias)][at_vias]
         rests = sequence.rests(joints, len(ideal.spans))
-        return driving_time(ideal.spans, self.requirements.objective.pace, rests)
+        pace = self.requirements.objective.pace.beside_zones  # a path beside may miss what it meets
+        return driving_time(ideal.spans, pace, rests)
 
     def wide_turns(self, rho: float) -> WideTurns:
         """The turns of a good driver, of at least a radius [m]."""

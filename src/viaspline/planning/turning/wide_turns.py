@@ -167,12 +167,18 @@ class WideTurns:
         The part is over that of the fastest turns, so that it is as much of the time.
         """
         angles, gaps = np.abs(narrowest.turns), _gaps(narrowest)
-        fast = self.pace.corner_radii(angles, narrowest.bends.rows[:, KEPT])
+        fast = self.pace.corner_radii(
+            angles, narrowest.bends.rows[:, KEPT], self._speeds(narrowest)
+        )
         arcs = float((fast * np.minimum(angles, 1.0) ** 3).sum()) / ARC_LONGER
         spent = GENTLE_SHARE * float(gaps.sum()) + arcs
         rooms = 2.0 * GENTLE_ROOM * gaps
         lengths = gentle_lengths(angles, rooms, narrowest.bends.closed, spent)
         return TurnWishes(angles, gaps, lengths, fast, spent)
+
+    def _speeds(self, narrowest: SettledTurns) -> Floats:
+        """The greatest speed in each turn [m/s], (n,)."""
+        return self.pace.speeds_at(narrowest.lines_and_turns[2])
 
     def _wished(self, bends: Bends, narrowest: SettledTurns, wishes: TurnWishes) -> Floats:
         """The radius that each turn should have [m], (n,).
@@ -190,7 +196,9 @@ class WideTurns:
         ramps = np.maximum(lengths - kept * angles, 0.0)  # beside an arc round what is kept
         wide = np.where(gentle < kept * angles, ramps, wide)
         spent = GENTLE_SHARE * float(wishes.gaps.sum())
-        soonest = np.maximum(wishes.fast, max(min(self.pace.widest_radius, self.roomy), self.own))
+        widest = self.pace.widest_radii(self._speeds(narrowest))
+        usual = np.maximum(np.minimum(widest, self.roomy), self.own)
+        soonest = np.maximum(wishes.fast, usual)
         radii[rows] = np.minimum(radii[rows], affordable_radii(angles, radii[rows], soonest, spent))
         radii[rows] = np.maximum(radii[rows], wide)
         given = np.isfinite(bends.rows[rows, HEADING])
