@@ -68,7 +68,7 @@ def moving_proof(fleet: Fleet, plan: Plan) -> MovingCertificate:
     requirements = Requirements.of(plan.mission, plan.tracking_error)
     return certify_moving(
         plan.path, plan.trajectory, MovingObstacles(fleet.world.moving), requirements.kept,
-        radius=requirements.radius, footprint=requirements.footprint,
+        radius=requirements.disc_radius, footprint=requirements.footprint,
         heading=plan.mission.robot.held_heading, hold=plan.mission.route.hold_s,
     )  # fmt: skip
 

@@ -27,7 +27,7 @@ from viaspline.saved_plans.law_within_limits import (
 from viaspline.saved_plans.plan_file import PlanFile
 from viaspline.saved_plans.saved_search import saved_account, saved_candidates, saved_waits
 from viaspline.saved_plans.served_points import AskedPoint, check_served
-from viaspline.spacetime.plan_among import moving_proof
+from viaspline.spacetime.law_on_path import moving_proof
 from viaspline.spacetime.timed_drive import TimedDrive
 from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.limits import Station

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viaspline.curve.path import Path
 from viaspline.errors import GaveUpError, NoPathError
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.method import Found, GaveUp, Outcome
@@ -20,14 +19,17 @@ from viaspline.spacetime.alternatives import (
 )
 from viaspline.spacetime.cut_off import is_cut_off
 from viaspline.spacetime.hopeless import check_start
+from viaspline.spacetime.law_on_path import (
+    WORTH_S,
+    departure_that_serves,
+    law_on_path,
+    moving_proof,
+)
 from viaspline.spacetime.searched_paths import is_searchable, searched_paths
 from viaspline.spacetime.taken_points import check_points
 from viaspline.spacetime.timed_drive import TimedCandidate, TimedDrive
 from viaspline.spacetime.timed_problem import TimedProblem
-from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
 from viaspline.trajectory.trajectory import Trajectory
-from viaspline.trajectory.yielding.law_among import BUDGET_S, law_among
-from viaspline.trajectory.yielding.no_law import Unserved
 from viaspline.trajectory.yielding.waits import TrafficWait, waits
 
 MAX_PATHS = 48
@@ -35,9 +37,6 @@ MAX_PATHS = 48
 
 ENOUGH_SEARCHED = 2
 """After so many drives that were searched it is enough."""
-
-WORTH_S = 1.0
-"""What has to be lost by waiting before it is looked for bays to wait in, and for drives [s]."""
 
 
 def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
@@ -61,7 +60,7 @@ def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
     check_start(problem)
     check_points(problem)
     first = Alternative(static, problem.free_law(static.path))
-    tried = _Tried().and_then(problem, first, _law(problem, first))
+    tried = _Tried().and_then(problem, first, law_on_path(problem, first))
     if tried.best is None and is_cut_off(problem):
         raise _cut_off(problem, tried.outcomes, static)
     if tried.is_late(first):
@@ -115,7 +114,7 @@ def _searched(problem: TimedProblem, tried: _Tried) -> _Tried:
     found = 0
     for drive in searched_paths(problem):
         for taken in drive:
-            outcome = _law(problem, taken)
+            outcome = law_on_path(problem, taken)
             tried = tried.and_then(problem, taken, outcome)
             if isinstance(outcome, Found):
                 found += 1
@@ -143,7 +142,7 @@ def _beside(problem: TimedProblem, first: Alternative, tried: _Tried) -> _Tried:
                 return tried
             ahead.add(another)
         taken = ahead.pop()
-        tried = tried.and_then(problem, taken, _law(problem, taken))
+        tried = tried.and_then(problem, taken, law_on_path(problem, taken))
         near = alternatives_to(problem, taken)
     return tried
 
@@ -199,38 +198,6 @@ def _elsewhere(
     return alternatives_elsewhere(problem, first)
 
 
-def _law(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory]:
-    """The law with the earliest arrival on a path."""
-    route, path = problem.mission.route, taken.solution.path
-    problem.budget.spent += problem.law_s(taken.free)
-    is_one_of_many = problem.outer is not None and bool(taken.passings or taken.is_searched)
-    with problem.budget.share(BUDGET_S) as budget:
-        return law_among(
-            path, problem.limits, problem.stops(path), moving=problem.moving,
-            required=problem.required, zones=problem.mission.world.speed_zones,
-            start_time=route.depart_s, hold=route.hold_s, budget=budget,
-            explained=_unexplained if is_one_of_many else Unserved.outcome,
-        )  # fmt: skip
-
-
-def _unexplained(_: Unserved) -> GaveUp:
-    """That there is no law, where what would help is told of another path.
-
-    To find that out costs as much as the paths themselves where most of them have no law.
-    """
-    return GaveUp((), reason="no law was found on this path among what moves")
-
-
-def moving_proof(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCertificate:
-    """What is proven of a path and a law on it: the distance to all that moves."""
-    requirements = problem.requirements
-    return certify_moving(
-        path, law, problem.moving, requirements.kept, radius=requirements.radius,
-        footprint=requirements.footprint, heading=problem.mission.robot.held_heading,
-        hold=problem.mission.route.hold_s,
-    )  # fmt: skip
-
-
 def _better(
     problem: TimedProblem, best: TimedDrive | None, taken: Alternative, law: Trajectory
 ) -> TimedDrive | None:
@@ -274,7 +241,7 @@ def _given_up(
     return GaveUpError(
         f"no path was found on which the robot is clear of what moves{first}",
         where=where,
-        remedy=_remedy(outcomes),
+        remedy=departure_that_serves(problem, static.path) or _remedy(outcomes),
         tried=tried,
         obstacles=names,
     )

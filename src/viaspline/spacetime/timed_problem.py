@@ -21,6 +21,7 @@ from viaspline.planning.problem.work_budget import (
     WorkBudget,
 )
 from viaspline.spacetime.world_squares import WorldSquares
+from viaspline.trajectory.coupled import is_coupled
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
@@ -32,6 +33,8 @@ SQUARES = 2_500
 AMONG_S, BETTER_S = 4.0, 2.0
 """What may be spent on paths and laws past what moves; and once there is a law, no more are tried
 when so much was spent [s of the reference machine]."""
+SLOWER = (0.75, 0.55, 0.4, 0.3, 0.2)
+"""Of the largest speed: what robots are tried with that can't slow down for a while alone."""
 ONE_OF_MORE = 0.5
 """The share of what is left that one of several searches past what moves may spend."""
 
@@ -93,6 +96,18 @@ class TimedProblem:
         A body that is no disc is taken for the one around it; its certificate knows better.
         """
         return self.requirements.around
+
+    @property
+    def smaller(self) -> tuple[float, ...]:
+        """Less than that, for a body that is no disc: the least first, and halfway to it [m]."""
+        between = 0.5 * (self.least + self.required)
+        return (self.least, between) if self.requirements.footprint is not None else ()
+
+    @property
+    def lower_speeds(self) -> tuple[float, ...]:
+        """Speeds at which a law is tried that waits at stops alone [m/s]; none for others."""
+        waits_at_stops = self.limits.max_jerk is not None or is_coupled(self.limits, 2)
+        return tuple(share * self.limits.max_speed for share in SLOWER if waits_at_stops)
 
     @property
     def least(self) -> float:

@@ -155,6 +155,11 @@ class Requirements(ComparedByValue):
         return self.turn_radius is None or self.turns_on_spot != "never"
 
     @property
+    def disc_radius(self) -> float:
+        """The radius of a body that is a disc; 0 for a polygon, which no disc is added to [m]."""
+        return self.radius if self.footprint is None else 0.0
+
+    @property
     def outer_radius(self) -> float:
         """Distance of the body's farthest point from its reference point [m]."""
         return max((math.hypot(*corner) for corner in self.footprint or ()), default=self.radius)

@@ -1,0 +1,102 @@
+"""The law with which a path is driven past what moves, and its proof."""
+
+from __future__ import annotations
+
+from viaspline.curve.path import Path
+from viaspline.planning.problem.method import Found, GaveUp, Outcome
+from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.spacetime.alternatives import Alternative
+from viaspline.spacetime.timed_problem import TimedProblem
+from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.trajectory.yielding.law_among import BUDGET_S, law_among
+from viaspline.trajectory.yielding.no_law import Unserved
+
+WORTH_S = 1.0
+"""What has to be lost by waiting before it is looked for bays to wait in, and for drives [s]."""
+
+LATER_S = (1.0, 2.0, 3.0, 5.0, 8.0, 13.0, 21.0, 34.0)
+"""Departures that are tried where the one that is asked for doesn't serve, so much later [s]."""
+
+
+def law_on_path(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory]:
+    """The law with the earliest arrival on a path.
+
+    A body that isn't a disc is taken for the disc around it first. Where that can't be served, or
+    loses time, it is taken for smaller ones: such a law is taken if it is proven for the body. A
+    robot that only waits where it stands anyway is tried at lower speeds where waits don't serve.
+    """
+    late = taken.free.end_time + WORTH_S
+    with problem.budget.share(BUDGET_S) as budget:
+        outcome = _law_keeping(problem, taken, budget, problem.required)
+        for required in problem.smaller:
+            if isinstance(outcome, Found) and outcome.value.end_time <= late:
+                return outcome
+            other = _law_keeping(problem, taken, budget, required)
+            if not isinstance(other, Found) or _is_later(other, outcome):
+                continue
+            if moving_proof(problem, taken.solution.path, other.value).holds:
+                return other
+        for speed in problem.lower_speeds:
+            if isinstance(outcome, Found) or budget.is_spent:
+                break
+            slower = _law_keeping(problem, taken, budget, problem.required, speed)
+            outcome = slower if isinstance(slower, Found) else outcome
+    return outcome
+
+
+def _is_later(law: Found[Trajectory], than: Outcome[Trajectory]) -> bool:
+    return isinstance(than, Found) and law.value.end_time >= than.value.end_time
+
+
+def _law_keeping(
+    problem: TimedProblem, taken: Alternative, budget: WorkBudget, required: float,
+    speed: float | None = None,
+) -> Outcome[Trajectory]:  # fmt: skip
+    """The law on a path of a disc that keeps a distance about its reference point [m].
+
+    It goes no faster than at some speed [m/s], if that is said.
+    """
+    route, path = problem.mission.route, taken.solution.path
+    is_one_of_many = problem.outer is not None and bool(taken.passings or taken.is_searched)
+    is_first = required == problem.required and speed is None
+    problem.budget.spent += problem.law_s(taken.free)
+    return law_among(
+        path, problem.limits, problem.stops(path), moving=problem.moving,
+        required=required, zones=problem.mission.world.speed_zones,
+        start_time=route.depart_s, hold=route.hold_s, speed_cap=speed, budget=budget,
+        explained=Unserved.outcome if is_first and not is_one_of_many else _unexplained,
+    )  # fmt: skip
+
+
+def _unexplained(_: Unserved) -> GaveUp:
+    """That there is no law, where what would help is told of another path.
+
+    To find that out costs as much as the paths themselves where most of them have no law.
+    """
+    return GaveUp((), reason="no law was found on this path among what moves")
+
+
+def moving_proof(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCertificate:
+    """What is proven of a path and a law on it: the distance to all that moves."""
+    requirements = problem.requirements
+    return certify_moving(
+        path, law, problem.moving, requirements.kept, radius=requirements.disc_radius,
+        footprint=requirements.footprint, heading=problem.mission.robot.held_heading,
+        hold=problem.mission.route.hold_s,
+    )  # fmt: skip
+
+
+def departure_that_serves(problem: TimedProblem, path: Path) -> str | None:
+    """When to depart instead, on the path among what stands, if one of some later times serves."""
+    route = problem.mission.route
+    for later in LATER_S:
+        depart = route.depart_s + later
+        outcome = law_among(
+            path, problem.limits, problem.stops(path), moving=problem.moving,
+            required=problem.required, zones=problem.mission.world.speed_zones,
+            start_time=depart, hold=route.hold_s, explained=_unexplained,
+        )  # fmt: skip
+        if isinstance(outcome, Found) and moving_proof(problem, path, outcome.value).holds:
+            return f"depart {later:g} s later (route.depart_s: {depart:g})"
+    return None
