@@ -87,3 +87,31 @@ def test_one_that_is_refused_is_one_that_no_drive_could_be_in_time_for(
         assert late <= 1e-6
     else:
         assert late > -4.0
+
+
+def round_trip(parked_at: list[float], since: float, **route: Any) -> vs.Mission:
+    """Round a square of 10 m and back to the start, at 1 m/s."""
+    motion = {"keyframes": [[0, 40, 40], [since, *parked_at]], "after": "stay"}
+    van = {"name": "van", "circle": {"center": [0, 0], "radius": 0.5}, "motion": motion}
+    robot = {"radius_m": 0.3, "clearance_m": 0.2, "max_speed_mps": 1.0, "max_accel_mps2": 1.0}
+    via = [[10, 0], [10, 10], [0, 10]]
+    data = {"start": [0, 0], "via": via, "closed": True, **route}
+    return vs.Mission.model_validate({"world": {"known": [van]}, "robot": robot, "route": data})
+
+
+def test_a_round_on_whose_end_something_parks_is_refused() -> None:
+    """It gave up after seconds with "depart at another time"."""
+    error = refused(round_trip([0.3, 0.3], 35.0))
+    assert str(error).startswith("the end of the round can't be held for 0 s: 'van' is from 35")
+    assert "the robot can't be there before 40.0 s" in str(error)
+    assert error.remedy == "move the start, or take the obstacle off it"
+    assert vs.plan(round_trip([0.3, 0.3], 60.0)).moving_certificate is not None
+    with pytest.raises(vs.NoPathError):
+        vs.plan(round_trip([0.3, 0.3], 60.0, laps=2))
+
+
+def test_a_point_that_is_taken_before_the_points_before_it_are_served_is_refused() -> None:
+    """Straight from the start it would be reached in time."""
+    error = refused(round_trip([0.3, 10.3], 15.0))
+    assert str(error).startswith("'via 3' can't be served: 'van'")
+    assert vs.plan(round_trip([0.3, 10.3], 60.0)).moving_certificate is not None

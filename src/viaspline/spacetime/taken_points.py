@@ -46,14 +46,14 @@ class _Point:
         at: Where it is [m].
         stay: For how long the robot is there [s].
         soonest: No drive from rest at the start is there sooner [s].
-        is_goal: Whether it is the goal.
+        is_end: Whether the route ends there.
     """
 
     name: str
     at: tuple[float, ...]
     stay: float
     soonest: float
-    is_goal: bool = False
+    is_end: bool = False
 
 
 def check_points(problem: TimedProblem) -> None:
@@ -79,23 +79,31 @@ def check_points(problem: TimedProblem) -> None:
     for k, since_k, index in sorted(taken):
         longest = _longest_while(problem, points[k], since_k)
         if longest is not None:
-            raise _refusal(problem, points[k], since_k, index, longest)
+            raise _refusal(problem, points[k], index, longest)
 
 
 def _points(problem: TimedProblem) -> Iterator[_Point]:
     """The points of the route after the start, as far as the robot has to be clear there."""
     route, limits = problem.mission.route, problem.limits
-    hardest, start = max(limits.max_accel, limits.brake), route.start.at[:2]
+    hardest, here = max(limits.max_accel, limits.brake), route.start.at[:2]
+    way = stayed = 0.0  # at least, from point to point
+
+    def soonest(stops: bool) -> float:
+        speeding = math.sqrt((4.0 if stops else 2.0) * way / hardest)
+        return route.depart_s + stayed + max(way / limits.max_speed, speeding)
+
     for i, via in enumerate(route.via):
-        far = math.dist(start, via.at[:2])
-        speeding = math.sqrt((4.0 if via.dwell_s > 0.0 else 2.0) * far / hardest)
-        soonest = route.depart_s + max(far / limits.max_speed, speeding)
-        yield _Point(via.name or f"via {i + 1}", via.at[:2], via.dwell_s, soonest)
+        way, here = way + math.dist(here, via.at[:2]), via.at[:2]
+        yield _Point(via.name or f"via {i + 1}", here, via.dwell_s, soonest(via.dwell_s > 0.0))
+        stayed += via.dwell_s
     if route.goal is not None:
-        far = math.dist(start, route.goal.at[:2])
-        soonest = route.depart_s + max(far / limits.max_speed, 2.0 * math.sqrt(far / hardest))
-        name = route.goal.name or "goal"
-        yield _Point(name, route.goal.at[:2], route.hold_s, soonest, is_goal=True)
+        way += math.dist(here, route.goal.at[:2])
+        yield _Point("goal", route.goal.at[:2], route.hold_s, soonest(True), is_end=True)
+    elif route.closed:
+        way, stayed = route.laps * (way + math.dist(here, route.start.at[:2])), route.laps * stayed
+        end = "end of the round"
+        stops = not route.is_patrol
+        yield _Point(end, route.start.at[:2], route.hold_s, soonest(stops), is_end=True)
 
 
 def _stands_from(alone: MovingObstacles) -> float | None:
@@ -117,35 +125,36 @@ def _is_taken(problem: TimedProblem, alone: MovingObstacles, point: _Point, sinc
     return bool(taken >= until)
 
 
-def _refusal(
-    problem: TimedProblem, point: _Point, since: float, index: int, longest: float
-) -> NoPathError:
+def _refusal(problem: TimedProblem, point: _Point, index: int, longest: float) -> NoPathError:
     """The error that a point is taken.
 
     Args:
         problem: What is asked.
         point: Of the route.
-        since: From when on it is taken for good [s].
         index: What stays there.
         longest: For how long it is free at once before, and after the robot may have come [s].
     """
     name, stay = problem.moving.name(index), point.stay
-    what = "hold" if point.is_goal else "stay"
-    key = "route.hold_s" if point.is_goal else f"dwell_s of '{point.name}'"
+    what = "hold" if point.is_end else "stay"
+    key = "route.hold_s" if point.is_end else f"dwell_s of '{point.name}'"
     changes: tuple[Change, ...] = ()
     if longest >= LEAST_HOLD_S:
         least = math.floor(10.0 * longest) / 10.0
         remedy = f"{what} {least:g} s at most ({key}: {least:g})"
-        changes = (Change("route.hold_s", least),) if point.is_goal else ()
-    elif point.is_goal:
-        remedy = "move the goal, or take the obstacle off it"
+        changes = (Change("route.hold_s", least),) if point.is_end else ()
+    elif point.is_end:
+        what = "goal" if problem.mission.route.goal is not None else "start"
+        remedy = f"move the {what}, or take the obstacle off it"
     else:
         remedy = f"move '{point.name}', leave it out, or take '{name}' off it"
-    if point.is_goal:
-        when = "always is" if since <= point.soonest else f"is from {since:.1f} s on"
-        problem_words = f"the goal can't be held for {stay:g} s: '{name}' {when} nearer than"
-        return _no_path(f"{problem_words} {problem.least:g} m", point, remedy, name, changes)
-    stands = _stands_from(problem.moving.alone(index))
+    stands = _stands_from(problem.moving.alone(index)) or 0.0
+    if point.is_end:
+        is_always = stands <= problem.mission.route.depart_s
+        when = "always is" if is_always else f"is from {stands:.1f} s on"
+        words = f"the {point.name} can't be held for {stay:g} s: '{name}' {when} nearer than"
+        too_soon = not is_always and stands <= point.soonest
+        late = f", and the robot can't be there before {point.soonest:.1f} s" if too_soon else ""
+        return _no_path(f"{words} {problem.least:g} m{late}", point, remedy, name, changes)
     when = f"from {stands:.1f} s on, for good" if stands else "all the time, on its round"
     return _no_path(
         f"'{point.name}' can't be served: '{name}' is nearer than {problem.least:g} m to it "
