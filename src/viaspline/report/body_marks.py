@@ -5,6 +5,7 @@ Tested through ``report/test_pictures``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PathCollection, PolyCollection
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Polygon, Rectangle
+from matplotlib.patches import Circle, Patch, Polygon, Rectangle
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.piecewise import PiecewiseCubic
@@ -77,20 +78,24 @@ def draw_body(axes: Axes, certificate: Certificate, robot: RobotSpec, heading: f
         robot: Whose body.
         heading: Which way it looks [rad].
     """
-    x, y = certificate.tightest_at[:2]
+    if certificate.tightest_heading is not None:
+        heading = certificate.tightest_heading
+    axes.add_artist(body_patch(robot, certificate.tightest_at[:2], heading))
+
+
+def body_patch(robot: RobotSpec, at: Sequence[float], heading: float) -> Patch:
+    """The body at a place (x, y) [m], as it looks that way [rad]."""
     look: dict[str, Any] = {
         "facecolor": style.SENSOR,
         "edgecolor": style.INK,
         "zorder": 10,
         "linewidth": 0.7,
     }
+    x, y = at
     if robot.footprint is None:
-        axes.add_artist(Circle((x, y), robot.radius_m, **look))
-        return
-    if certificate.tightest_heading is not None:
-        heading = certificate.tightest_heading
+        return Circle((x, y), robot.radius_m, **look)
     (corners,) = placed(np.array(robot.footprint), np.array([[x, y]]), np.array([heading]))
-    axes.add_artist(Polygon(corners, alpha=0.85, **look))
+    return Polygon(corners, alpha=0.85, **look)
 
 
 def draw_headings(

@@ -13,13 +13,16 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Rectangle
+from matplotlib.patches import Rectangle
 from shapely.affinity import affine_transform
 
 from viaspline.kernels.arrays import Floats
+from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report import style
+from viaspline.report.body_marks import body_patch
 from viaspline.report.canvas import outline, shape_of
 from viaspline.report.labels import Labels
+from viaspline.whole_plan import Plan
 from viaspline.world.moving_obstacles import MovingObstacles
 
 TRAIL_PIECES = 200  # of a trail, at most
@@ -36,14 +39,24 @@ class Moment(NamedTuple):
         begin: From when trails are drawn [s],
         end: and until when [s].
         now: When the shapes are drawn [s].
-        robot: Where the robot is then, and how large: x, y, radius [m].
+        robot: Whose body is drawn where it is then.
+        at: Where that is: x, y [m], and which way it looks [rad].
     """
 
     moving: MovingObstacles
     begin: float
     end: float
     now: float
-    robot: tuple[float, float, float]
+    robot: RobotSpec
+    at: tuple[float, float, float]
+
+
+def body_at(plan: Plan, time: float) -> tuple[float, float, float]:
+    """Where the robot of a plan is at a time: x, y [m], and which way it looks [rad]."""
+    path, held = plan.path, plan.mission.robot.held_heading
+    u = float(path.parameter(min(float(plan.trajectory.distance_at(time)), path.length)))
+    x, y = np.asarray(path.evaluate(u))[:2].tolist()
+    return x, y, float(path.heading(u)) if held is None else held
 
 
 def draw_moving(axes: Axes, labels: Labels, moment: Moment) -> list[Artist]:
@@ -75,12 +88,8 @@ def draw_moving(axes: Axes, labels: Labels, moment: Moment) -> list[Artist]:
             *arrows.T, angles="xy", scale_units="xy", scale=1.0, color=style.MOVING, width=0.0025,
             headwidth=4.0, headlength=5.0, zorder=6.6,
         )  # fmt: skip
-    x, y, radius = moment.robot
-    axes.add_artist(
-        Circle(
-            (x, y), radius, facecolor=style.SENSOR, edgecolor=style.INK, linewidth=0.8, zorder=10
-        )
-    )
+    x, y, heading = moment.at
+    axes.add_artist(body_patch(moment.robot, (x, y), heading))
     for name, at in named[:MAX_NAMED] if len(moving) <= MAX_NAMED else ():
         labels.add(style.short(name), at, rank=5, colour=style.MOVING)
     return [

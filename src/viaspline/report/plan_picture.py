@@ -24,7 +24,7 @@ from viaspline.report.body_marks import draw_swept, draw_zones
 from viaspline.report.canvas import any_name, png, polyline
 from viaspline.report.close_up import close_up
 from viaspline.report.labels import Labels
-from viaspline.report.moving_marks import Moment, draw_moving
+from viaspline.report.moving_marks import Moment, body_at, draw_moving
 from viaspline.report.path_marks import (
     draw_arrows,
     draw_path,
@@ -133,10 +133,8 @@ def moment_of(plan: Plan) -> Moment:
     law, certificate = plan.trajectory, plan.moving_certificate
     now = law.start_time if certificate is None else certificate.tightest_at_s
     moving = MovingObstacles.known(plan.mission)
-    along = min(float(law.distance_at(now)), plan.path.length)
-    x, y = np.asarray(plan.path.at_distance(along))[:2].tolist()
-    body = (x, y, plan.mission.robot.outer_radius)
-    return Moment(moving, law.start_time, law.end_time, now, body)
+    at = body_at(plan, now)
+    return Moment(moving, law.start_time, law.end_time, now, plan.mission.robot, at)
 
 
 def subtitle(mission: Mission) -> str:

@@ -148,7 +148,8 @@ def _moment(run: Run) -> Moment:
     met = run.encounters
     now = end if met is None or met.time is None else met.time
     x, y = run.place_at(now)[:2]
-    return Moment(run.moving, begin, end, now, (x, y, run.plan.mission.robot.outer_radius))
+    heading = float(np.interp(now, run.times, np.unwrap(run.headings)))
+    return Moment(run.moving, begin, end, now, run.plan.mission.robot, (x, y, heading))
 
 
 def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:

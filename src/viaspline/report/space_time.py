@@ -62,8 +62,18 @@ class SpaceTime:
 
 
 def kept_from_moving(plan: Plan) -> float:
-    """Distance that a plan's path keeps from what moves [m]."""
-    return Requirements.of(plan.mission, plan.tracking_error).around
+    """Distance that a plan's path keeps from what moves [m].
+
+    That of the disc around the body. Where a body that is no disc goes by more closely than that,
+    it is what it keeps there: no law is drawn through what would block it.
+    """
+    requirements = Requirements.of(plan.mission, plan.tracking_error)
+    moving = MovingObstacles.known(plan.mission)
+    if requirements.footprint is None or not len(moving):
+        return requirements.around
+    distances, times = line_of(plan.trajectory).T
+    nearest = float(moving.distance(plan.path.at_distance(distances), times).min())
+    return float(np.clip(nearest, requirements.required, requirements.around))
 
 
 def line_of(law: Trajectory) -> Floats:

@@ -77,13 +77,13 @@ def encounters(
 
     The distance changes by no more than both can go in the time between two instants, so what is
     measured there, less that, is proven for all of the drive; what jumps, where a motion begins
-    again, counts from when it is there. A body that is no disc is taken for the one around it.
+    again, counts from when it is there.
 
     Args:
         motion: Where the robot was when.
         robot: How it brakes.
-        radius: Of the disc or ball that its body is taken for; 0 where distances are to its body as
-            it is [m].
+        radius: Of the disc or ball that its body is; 0 where distances are to its body as it
+            is [m].
         moving: All that moved, known or not.
         was_late: Whether something could not be seen until the robot couldn't stand in time any
             more before it was touched at a time; see ``Appearance``.

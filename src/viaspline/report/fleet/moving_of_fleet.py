@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.report.labels import Labels
-from viaspline.report.moving_marks import Moment, draw_moving
+from viaspline.report.moving_marks import Moment, body_at, draw_moving
 from viaspline.report.space.moving_in_space import draw_moving_solids
 from viaspline.space.among.moving_solid import MovingSolid
 from viaspline.space.spatial_plan import SpatialPlan
@@ -35,10 +35,9 @@ def draw_moving_of_fleet(axes: Axes, labels: Labels, plan: FleetPlan) -> list[Ar
     if isinstance(near, SpatialPlan):
         solids = MovingSolid.all_of(near.mission, begin, end)
         return draw_moving_solids(axes, labels, solids, (begin, end), now)
-    x, y = near.path.at_distance(near.trajectory.distance_at(now))[:2]
-    body = (float(x), float(y), near.mission.robot.outer_radius)
-    moving = MovingObstacles(plan.fleet.world.moving)
-    return draw_moving(axes, labels, Moment(moving, begin, end, now, body))
+    moving, robot = MovingObstacles(plan.fleet.world.moving), near.mission.robot
+    moment = Moment(moving, begin, end, now, robot, body_at(near, now))
+    return draw_moving(axes, labels, moment)
 
 
 def _proof_of(plan: AnyPlan) -> MovingCertificate | None:

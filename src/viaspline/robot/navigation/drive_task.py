@@ -41,6 +41,14 @@ class DriveTask:
         return self.requirements.around + self.apart
 
     @property
+    def kept_by_body(self) -> tuple[float, ...]:
+        """Less than that, for a body that is no disc: its least, and halfway to it [m]."""
+        if self.requirements.footprint is None:
+            return ()
+        least = self.requirements.required + self.apart
+        return (least, 0.5 * (least + self.kept_to_moving))
+
+    @property
     def spot_turning(self) -> SpotTurning:
         """How the robot turns where it stands."""
         if self.model is None:

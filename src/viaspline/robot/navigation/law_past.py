@@ -10,8 +10,9 @@ from collections.abc import Sequence
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.planning.problem.method import Found, GaveUp
+from viaspline.planning.problem.method import Found, GaveUp, Outcome
 from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.robot.navigation.body_past import body_keeps_clear
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.trajectory.limits import Station
@@ -55,16 +56,23 @@ def law_past(
     timed = path
     if end < path.length:
         timed, stops = part_until(path, stops, end)
-    outcome = law_among(
-        timed, task.limits, stops, moving=moving,
-        required=task.kept_to_moving,
-        zones=task.mission.world.speed_zones, slow=schedule.slow,
-        start=min(distance, timed.length), start_speed=motion[0], start_time=time,
-        hold=task.mission.route.hold_s if end >= path.length else 0.0,
-        budget=WorkBudget(LAW_WORK_S), halvings=0, explained=_unexplained,
-    )  # fmt: skip
+    hold = task.mission.route.hold_s if end >= path.length else 0.0
+
+    def law(required: float) -> Outcome[Trajectory]:
+        return law_among(
+            timed, task.limits, stops, moving=moving, required=required,
+            zones=task.mission.world.speed_zones, slow=schedule.slow,
+            start=min(distance, timed.length), start_speed=motion[0], start_time=time,
+            hold=hold, budget=WorkBudget(LAW_WORK_S), halvings=0, explained=_unexplained,
+        )  # fmt: skip
+
+    outcome = law(task.kept_to_moving)
     if isinstance(outcome, Found):
         return outcome.value
+    for required in task.kept_by_body:
+        other = law(required)
+        if isinstance(other, Found) and body_keeps_clear(task, moving, timed, other.value, hold):
+            return other.value
     raise GeometryError(f"no law past what moves: {outcome.reason}")
 
 

@@ -11,6 +11,7 @@ from viaspline.curve.path import SEAM, Path
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.run import Event, Run
 from viaspline.robot.simulation.appearance import Appearance
+from viaspline.robot.simulation.body_among_movers import movers_about
 from viaspline.robot.simulation.contact import with_contacts
 from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.exact_drive import ExactDrive
@@ -52,7 +53,8 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
     if len(moving):
         appearance = Appearance(nav.mission, world, moving, motion)
         states = _states(drive, path)
-        met = encounters(states, robot, robot.outer_radius, moving, appearance.was_late)
+        radius, movers = movers_about(robot, moving, motion)
+        met = encounters(states, robot, radius, movers, appearance.was_late)
         events = with_contacts(events, met, states)
     reason = reason or touched_by(met)
     return Run(

@@ -21,6 +21,7 @@ from viaspline.machine.turned_in_place import turned_in_place
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Run, Visit
 from viaspline.robot.simulation.appearance import Appearance
+from viaspline.robot.simulation.body_among_movers import movers_about
 from viaspline.robot.simulation.contact import with_contacts
 from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.machine_drive import MachineDrive
@@ -71,7 +72,8 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     if len(moving):
         appearance = Appearance(nav.mission, world, moving, motion)
         states = _states(drive, travel.speeds)
-        met = encounters(states, robot, robot.outer_radius, moving, appearance.was_late)
+        radius, movers = movers_about(robot, moving, motion)
+        met = encounters(states, robot, radius, movers, appearance.was_late)
         events = with_contacts(events, met, states)
     reason = reason or touched_by(met)
     return Run(
