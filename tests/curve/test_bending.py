@@ -140,3 +140,34 @@ def test_a_span_that_loops_back_is_told(span: list[tuple[float, float]], loops: 
 def test_spans_of_another_shape_are_refused() -> None:
     with pytest.raises(GeometryError, match="shape"):
         self_loops([[0, 1, 2, 3]])
+
+
+@pytest.mark.parametrize("away", [(0.0, 0.0), (4.1e5, 5.4e6), (-7.0e6, 2.0e6)])
+@pytest.mark.parametrize("size", [0.02, 1.0, 300.0])
+def test_a_smooth_curve_has_no_corner_however_far_from_the_origin_it_lies(
+    away: tuple[float, float], size: float
+) -> None:
+    angles = np.cumsum(np.tile([1.0, 1.7, 0.6], 16))
+    ring = size * np.exp(2j * math.pi * angles / angles[-1]).view(float).reshape(-1, 2)
+    near, there = (
+        CardinalSpline(ring + at, knots="chordal", closed=True) for at in ((0.0, 0.0), away)
+    )
+    rounded = 100.0 * np.spacing(np.abs(away).max()) / (size / 100) ** 2  # of second differences
+    expected = curvature_bound(near)[0]
+    assert curvature_bound(there)[0] == pytest.approx(expected, rel=1e-5, abs=rounded)
+
+
+def test_a_corner_is_one_however_far_from_the_origin_it_lies() -> None:
+    utm = np.array([4.1e5, 5.4e6])
+    for turn in (1e-4, 1e-2):
+        lines = np.array([[[-3, 0], [-2, 0], [-1, 0], [0, 0]], [[0, 0], [1, turn], [2, 2 * turn],
+                                                                [3, 3 * turn]]])  # fmt: skip
+        assert curvature_bound(PiecewiseCubic(lines + utm))[0] == math.inf
+    still = np.array([[0, 0]] * 4)[None]  # a span that is a point hides no corner
+    parts = np.concatenate((lines[:1], still, lines[1:])) + utm
+    assert curvature_bound(PiecewiseCubic(parts))[0] == math.inf
+    for short in (1e-17, 1e-9, 0.0):  # the same where it turns back, and stands there all but still
+        back = np.array([[[0, 0], [1, 0], [2 - short, 0], [2, 0]], [[2, 0], [2 - short, 0],
+                                                                   [1, 0], [0, 0]]])  # fmt: skip
+        for away in (0.0, utm):
+            assert curvature_bound(PiecewiseCubic(back + away))[0] == math.inf

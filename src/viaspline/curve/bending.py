@@ -12,6 +12,7 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.curve import curvature_bound as kernels
 from viaspline.kernels.curve import self_intersection
 
+MOST_ROUNDED_RAD = 1e-3  # a tangent that is rounded by more is too short to have a direction [rad]
 SMOOTH_JUMP_RAD = 1e-7  # a tangent that jumps by less is smooth but for rounding [rad]
 
 
@@ -39,7 +40,10 @@ def curvature_bound(curve: PiecewiseCubic, least: float = 0.0) -> tuple[float, f
         ...                                 [(3, 0), (3, 1), (3, 2), (3, 3)]]))
         (inf, 1.0)
     """
-    sharp = np.flatnonzero(corner_angles(curve) > SMOOTH_JUMP_RAD)
+    jumps = corner_angles(curve)
+    sharp = np.flatnonzero(jumps > SMOOTH_JUMP_RAD)
+    if sharp.size:
+        sharp = sharp[jumps[sharp] > SMOOTH_JUMP_RAD + _rounded_by(curve)[sharp]]
     if sharp.size:
         return math.inf, float(sharp[0])
     upper, _, w = kernels.curvature_bounds(np.array(curve.spans), least)
@@ -76,6 +80,24 @@ def corner_angles(curve: PiecewiseCubic) -> NDArray[np.float64]:
     """
     angles: NDArray[np.float64] = kernels.corners(np.array(curve.spans), curve.closed)
     return angles
+
+
+def _rounded_by(curve: PiecewiseCubic) -> NDArray[np.float64]:
+    """By how much tangents at joints may differ because places are rounded [rad], (m + 1,).
+
+    In UTM the last digit of a place is a millionth of a millimetre, which turns a tangent that is a
+    centimetre long by as much as is smooth otherwise.
+    """
+    spans = np.asarray(curve.spans)
+    legs = np.linalg.norm(np.diff(spans, axis=1), axis=2)
+    first, last = (np.where(a > 0.0, a, np.where(b > 0.0, b, c))
+                   for a, b, c in (legs.T, legs.T[::-1]))  # fmt: skip
+    off = 2.0 * np.spacing(np.abs(spans).max())
+    begins, ends = (np.divide(off, leg, out=np.zeros_like(leg), where=leg > 0.0)
+                    for leg in (first, last))  # fmt: skip
+    seam = begins[:1] + ends[-1:] if curve.closed else np.zeros(1)
+    rounded = np.concatenate((seam, begins[1:] + ends[:-1], seam))
+    return np.minimum(rounded, MOST_ROUNDED_RAD)
 
 
 def self_loops(spans: ArrayLike) -> NDArray[np.bool_]:
