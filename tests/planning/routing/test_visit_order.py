@@ -1,9 +1,10 @@
+import math
 from itertools import pairwise, permutations
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
@@ -235,3 +236,28 @@ def test_a_turn_costs_more_the_sharper_it_is_and_no_more_than_a_halt() -> None:
     assert times[0] == pytest.approx(0.0, abs=1e-9)
     assert (np.diff(times) >= -1e-12).all()
     assert times[-1] <= 0.5 * 4.0 * (1.0 + 0.5) + 1e-12
+
+
+@pytest.mark.parametrize("optimise", ["time", "length"])
+@settings(max_examples=20)
+@given(seeds, st.integers(2, 6), st.floats(-180.0, 180.0))
+@example(0, 2, 56.0)
+def test_a_closed_round_begins_the_way_that_its_start_faces_however_the_world_is_turned(
+    optimise: str, seed: int, count: int, turn: float
+) -> None:
+    places = np.random.default_rng(seed).uniform(0, 100, (count + 1, 2))
+    heading = float(np.random.default_rng(seed).uniform(-180, 180))
+    cos, sin = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+    image = places @ np.array([[cos, sin], [-sin, cos]]) + (3e5, 5e6)
+
+    def served(places: Any, heading: float) -> vs.Mission:
+        asked = mission(places, closed=True).model_dump(exclude_defaults=True, exclude_none=True)
+        asked["route"] |= {"optimise": optimise}
+        asked["route"]["start"] = {"at": tuple(places[0]), "heading_deg": heading}
+        return in_order(vs.Mission.model_validate(asked))
+
+    found, turned = served(places, heading), served(image, heading + turn)
+    assert [via.name for via in turned.route.via] == [via.name for via in found.route.via]
+    ways = [np.array(via.at) - places[0] for via in (found.route.via[0], found.route.via[-1])]
+    off = [math.remainder(math.atan2(y, x) - math.radians(heading), math.tau) for x, y in ways]
+    assert abs(off[0]) + (math.pi - abs(off[1])) <= math.pi + 1e-6

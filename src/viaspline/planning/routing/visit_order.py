@@ -4,6 +4,9 @@ By the lengths of the ways between all points, round what stands between them: s
 Among very many only exchanges with near neighbours are looked at, and lengths are straight: neither
 what stands between nor the sides that are asked for count there.
 
+A closed round is as short the other way round: the way is taken that turns less where a heading is
+given at its start, else that which keeps nearer to the given order.
+
 Where time counts, the shortest order is exchanged on until nothing is sooner, by the time of
 ``round_cost``: for a few via points it is the soonest of all; of many the shortest is taken.
 """
@@ -11,6 +14,7 @@ Where time counts, the shortest order is exchanged on until nothing is sooner, b
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import partial
 from itertools import permutations
 
@@ -34,7 +38,7 @@ from viaspline.planning.routing.least_order import (
     round_of,
     shortest_order,
 )
-from viaspline.planning.routing.round_cost import RoundTime, WaysBetween
+from viaspline.planning.routing.round_cost import RoundLength, RoundTime, WaysBetween
 from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.router import Router
@@ -45,6 +49,7 @@ MAX_VIAS_ROUTED = 50  # up to which every two have a way between them laid
 NEAR = 10  # neighbours of each point that exchanges are looked for among
 MAX_EXCHANGES_EACH = 50  # for each point, beyond which the rest is left
 MAX_VIAS_ALL_TIMES = 5  # up to which all orders are compared by their time
+SAME_COST = 1e-9  # of what orders cost, that is rounding
 MAX_VIAS_TIMED = 16  # up to which exchanges are looked for by their time
 
 
@@ -99,17 +104,47 @@ def _order_of_few(mission: Mission, world: World) -> tuple[int, ...]:
     ways, count = ways_between(mission, world), len(mission.route.via)
     last = last_stop(len(ways.lengths), count, closed=route.closed)
     order = shortest_order(ways.lengths, count, last)
+    lengths = RoundLength(ways.lengths)
+
+    def length(order: tuple[int, ...]) -> float:
+        return lengths.of(round_of(order, last))
+
     if not objective.is_time or count > MAX_VIAS_TIMED or not np.isfinite(ways.lengths).all():
-        return order
+        return _directed(order, length, mission, ways)
     stands = np.array([True, *(via.dwell_s > 0.0 for via in route.via), True])
     rounds = RoundTime.of_pace(ways, stands, objective.pace)
 
     def time(order: tuple[int, ...]) -> float:
         return rounds.of(round_of(order, last))
 
-    if count <= MAX_VIAS_ALL_TIMES:
-        return min(permutations(order), key=time)
-    return exchanged(time, order)
+    if count > MAX_VIAS_ALL_TIMES:
+        return _directed(exchanged(time, order), time, mission, ways)
+    times = {some: time(some) for some in permutations(sorted(order))}
+    least = (1.0 + SAME_COST) * min(times.values())
+    return _directed(next(some for some in times if times[some] <= least), time, mission, ways)
+
+
+def _directed(
+    order: tuple[int, ...], cost: Callable[[tuple[int, ...]], float], mission: Mission,
+    ways: WaysBetween,
+) -> tuple[int, ...]:  # fmt: skip
+    """A closed round in the better of its two directions, if they cost the same."""
+    if not mission.route.closed:
+        return order
+    both = (order, order[::-1])
+    costs = sorted(map(cost, both))
+    if not costs[1] <= (1.0 + SAME_COST) * costs[0]:
+        return order
+    heading = mission.route.start.heading_deg
+    if heading is None:
+        return min(both)
+
+    def turned(order: tuple[int, ...]) -> float:
+        """By how much it turns at the start, there and as it comes back [rad]."""
+        ends = ways.leaving[0, order[0] + 1], ways.arriving[order[-1] + 1, 0]
+        return sum(abs(math.remainder(way - math.radians(heading), math.tau)) for way in ends)
+
+    return min(both, key=lambda order: (round(turned(order), 6), order))
 
 
 def named(via: ViaPoint, place: int) -> ViaPoint:
