@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -12,17 +13,19 @@ from hypothesis import strategies as st
 import viaspline as vs
 from viaspline.curve.bending import is_round
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
 from viaspline.planning.methods.clear_spline import ClearSpline
 from viaspline.planning.methods.ordered import FEW_HEADINGS, NEARBY_HEADINGS
 from viaspline.planning.problem.method import Found
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.routing.path_problem import PathProblem
-from viaspline.planning.turning.bend_row import DETOUR, Bends, bend
+from viaspline.planning.turning.bend_row import DETOUR, SIDE, Bends, bend
 from viaspline.planning.turning.clear_ends import with_clear_ends
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.headings import HeadingLeg, costs_between, with_room
+from viaspline.planning.turning.headings import HeadingLeg, costs_between, legs_of, with_room
 from viaspline.planning.turning.repair import clear_turn_path
+from viaspline.planning.turning.turn_path import TurnPath, turn_path_round
 from viaspline.planning.turning.turn_problem import TurnProblem
 
 RADIUS_M = 0.35
@@ -143,3 +146,36 @@ def test_headings_into_a_wall_are_left_out_before_a_long_leg_is_pushed_clear() -
         assert leaves[np.isclose(headings, along)].all()
         assert arrives[np.isclose(headings, along)].all()
     assert (kept[np.isfinite(kept)] == costs[np.isfinite(kept)]).all()
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 10_000), st.floats(-math.pi, math.pi), st.booleans())
+@example(0, 0.3, False)
+def test_the_headings_that_are_tried_turn_with_the_world_and_one_halves_the_turn(
+    seed: int, angle: float, mirrored: bool
+) -> None:
+    rng = np.random.default_rng(seed)
+    rows = np.array([bend(*at, kept, side) for at, kept, side in (
+        ((0, 0), 0.0, 0.0), (rng.uniform(-9, -5, 2), rng.uniform(0, 2), rng.choice((-1.0, 1.0))),
+        (rng.uniform(5, 9, 2), 0.0, 0.0),
+        (rng.uniform(14, 18, 2), rng.uniform(0, 2), rng.choice((-1.0, 1.0))), ((9, 25), 0.0, 0.0),
+    )])  # fmt: skip
+    vias = np.array([0, DETOUR, 1, DETOUR, 2])
+
+    def tried(rows: Floats) -> Floats:
+        first, _ = legs_of(Bends.free(rows, vias), (), {1}, 16, {})
+        return first.goals
+
+    image, side = rows.copy(), -1.0 if mirrored else 1.0
+    image[:, 1] *= side
+    image[:, SIDE] *= side
+    turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    image[:, :2] = image[:, :2] @ turn
+    found, expected = (np.exp(1j * h) for h in (tried(image), side * tried(rows) + angle))
+    assert np.abs(found[:, None] - expected).min(axis=1).max() < 1e-9
+    laid = turn_path_round(Bends.free(rows, vias).turning(1e-5))
+    if not isinstance(laid, TurnPath) or len(laid.left) < len(rows):  # it goes round other sides
+        return
+    along = laid.spans[laid.begins[2], 1] - laid.spans[laid.begins[2], 0]
+    halved = math.atan2(along[1], along[0])
+    assert math.remainder(tried(rows)[0] - halved, math.tau) == pytest.approx(0.0, abs=1e-3)

@@ -22,6 +22,7 @@ from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.routing.taut_path import TautPath
 
 DETOUR = -1
+TURNS_BACK = 1e-6  # length of the sum of two directions that are opposite but for rounding
 _ROUND, _TAUT_ROUND = [X, Y, KEPT, SIDE], [BEND_X, BEND_Y, BEND_RADIUS, BEND_SIDE]
 
 
@@ -143,9 +144,38 @@ class Bends:
             return math.inf
         return abs(float(way[0] * own[1] - way[1] * own[0])) / length
 
+    def heading_through(self, k: int) -> float:
+        """The heading that halves the turn at bend k, which goes round nothing [rad].
+
+        Where the lines there and away lie on each other it is that of the line there.
+        """
+        before, at, after = self.rows[np.arange(k - 1, k + 2) % len(self.rows)]
+        there, away = -_tangent(at, before, -1.0), _tangent(at, after, 1.0)
+        both = there + away
+        x, y = (both if np.hypot(*both) > TURNS_BACK else there).tolist()
+        return math.atan2(y, x)
+
     def places(self, via: int) -> int:
         """Where in the row a via point of the sequence stands."""
         return int(np.flatnonzero(self.vias == via)[0])
+
+
+def _tangent(at: Floats, row: Floats, way: float) -> Floats:
+    """The direction from a place to where the circle of a row is touched, (2,).
+
+    Args:
+        at: A row that is the place.
+        row: The other.
+        way: 1 where the path goes there from the place, -1 where it comes from there.
+    """
+    off = row[:2] - at[:2]
+    far = float(np.hypot(*off))
+    if far == 0.0:
+        return np.zeros(2)
+    sin = -way * row[SIDE] * min(row[KEPT] / far, 1.0)
+    cos = math.sqrt(1.0 - sin**2)
+    x, y = (off / far).tolist()
+    return np.array([cos * x - sin * y, sin * x + cos * y])
 
 
 def _straight(count: int) -> Floats:

@@ -118,13 +118,17 @@ def _headings(
     bends: Bends, via: int, vias: int, spots: Collection[int], count: int,
     walls: Mapping[int, float],
 ) -> Floats:  # fmt: skip
-    """The headings that a via point may have [rad]."""
+    """The headings that a via point may have [rad].
+
+    That which halves its turn is among them, so that they are the same in whichever frame.
+    """
     is_end = not bends.closed and via in (0, vias - 1)
     if is_end:
         return bends.rows[[bends.places(via)], HEADING]
     if via in spots:
         return np.array([math.nan])
-    return walls.get(via, 0.0) + np.arange(count, dtype=np.float64) * (math.tau / count)
+    first = walls[via] if via in walls else bends.heading_through(bends.places(via))
+    return first + np.arange(count, dtype=np.float64) * (math.tau / count)
 
 
 def costs_between(legs: Sequence[HeadingLeg], requirements: Requirements) -> Floats:
