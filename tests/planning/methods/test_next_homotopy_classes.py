@@ -67,3 +67,38 @@ def test_in_the_open_the_next_way_goes_round_the_outside():
     assert path.length < 69.0
     assert curvature_bound(path)[0] * CIRCLE <= 1.0
     assert found.distance(points).min() >= BODY - 1e-6
+
+
+DEAD_END = [
+    {"circle": {"center": [12.17, 4.41], "radius": 1.238}},
+    {"circle": {"center": [3.68, 5.91], "radius": 2.159}},
+    {"polygon": [[12.083, -0.307], [12.667, 0.343], [12.017, 0.927], [11.433, 0.277]]},
+    {"polygon": [[10.684, 6.437], [9.248, 8.051], [8.568, 6.001]]},
+    {"circle": {"center": [13.98, 10.55], "radius": 0.692}},
+]
+
+
+def there_and_back(mirrored: bool) -> vs.Plan:
+    """To a via point behind a disc and back past that, then on."""
+
+    def at(x: float, y: float) -> list[float]:
+        return [x, -y if mirrored else y]
+
+    known: list[dict[str, Any]] = [
+        {"circle": {"center": at(*one["circle"]["center"]), "radius": one["circle"]["radius"]}}
+        if "circle" in one
+        else {"polygon": [at(*corner) for corner in one["polygon"]]}
+        for one in DEAD_END
+    ]
+    robot = {"radius_m": 0.5, "clearance_m": 0.4, "min_turn_radius_m": 1.6}
+    route = {"start": at(5.88, 9.45), "via": [at(1.43, 0.91)], "goal": at(16.96, 13.07)}
+    return vs.plan(
+        vs.Mission.model_validate({"world": {"known": known}, "robot": robot, "route": route})
+    )
+
+
+def test_where_left_is_right_a_robot_turns_back_at_a_via_point_as_well():
+    plan, image = there_and_back(mirrored=False), there_and_back(mirrored=True)
+    assert image.path.length == pytest.approx(plan.path.length, rel=1e-6)
+    assert image.trajectory.duration == pytest.approx(plan.trajectory.duration, rel=1e-6)
+    assert plan.path.length < 34.5

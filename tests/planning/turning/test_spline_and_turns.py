@@ -63,3 +63,27 @@ def test_there_is_no_room_for_turns_between_legs_of_one_cubic() -> None:
     sequence = ViaSequence(vias, legs, SplineSpec(), tangents="cardinal")
 
     assert turns_on_runs(sequence, [], {1}, pytest.fail) is None
+
+
+def on_its_way(through: list[tuple[float, float]]) -> vs.Plan:
+    """Past a block and some more into a given heading, with a taut spline."""
+    return vs.plan(vs.Mission.model_validate({
+        "world": {"known": [
+            {"polygon": [[3.647, 12.167], [3.393, 12.987], [2.573, 12.733], [2.827, 11.913]]},
+            {"polygon": [[2.284, 10.553], [1.043, 9.212], [2.357, 7.973], [4.276, 8.186],
+                         [3.614, 9.916]]},
+            {"capsule": {"from": [3.538, 5.481], "to": [5.062, 5.219], "radius": 0.193}},
+        ]},
+        "robot": {"footprint": [[-0.3, -0.35], [1.0, -0.35], [1.0, 0.35], [-0.3, 0.35]],
+                  "clearance_m": 0.113, "min_turn_radius_m": 1.0, "max_speed_mps": 1.378,
+                  "max_accel_mps2": 1.987},
+        "route": {"start": [7.28, 0.18], "via": [{"at": at} for at in through],
+                  "goal": {"at": [2.08, 14.61], "heading_deg": 163.164}},
+        "spline": {"tension": 0.587},
+    }))  # fmt: skip
+
+
+def test_a_via_point_on_the_way_makes_no_loop_between_the_directions_of_a_taut_spline():
+    plan, served = on_its_way([]), on_its_way([(5.642025874802329, 6.418152056355041)])
+    assert served.trajectory.duration < 1.01 * plan.trajectory.duration
+    assert served.certificate.holds

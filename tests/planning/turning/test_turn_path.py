@@ -9,9 +9,11 @@ from hypothesis import strategies as st
 
 from viaspline.planning.turning.bend_row import DETOUR, HEADING, Bends, bend
 from viaspline.planning.turning.turn_path import (
+    WOUND_RAD,
     TurnPath,
     turn_path_on_sides,
     turn_path_round,
+    turned_otherwise,
     with_sides,
 )
 
@@ -71,3 +73,36 @@ def test_a_heading_may_be_left_to_both_sides() -> None:
     assert {math.copysign(1.0, path.turns[0]) for path in paths if isinstance(path, TurnPath)} == {
         -1.0, 1.0,
     }  # fmt: skip
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_where_it_goes_back_as_it_came_a_via_point_is_left_to_both_sides(closed: bool) -> None:
+    rows = np.array([bend(0, 0), bend(9, 1), bend(0, 0)][: 2 if closed else 3])
+    bends = Bends(rows, np.arange(len(rows)), np.full(len(rows), math.inf), closed).turning(0.5)
+    laid = [turn_path_on_sides(sided) for sided in with_sides(bends)]
+    assert len(laid) == (9 if closed else 3)
+    turns = {math.copysign(1.0, one.turns[1]) for one in laid if isinstance(one, TurnPath)}
+    assert turns == {-1.0, 1.0}
+    lengths = [one.length for one in laid if isinstance(one, TurnPath)]
+    assert min(lengths) == pytest.approx(lengths[0], rel=1e-9)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(2.55, 3.05), st.sampled_from([-1.0, 1.0]), st.floats(0.2, 1.5))
+def test_where_it_all_but_goes_back_a_via_point_may_be_left_the_longer_way_round(
+    turn: float, side: float, radius: float
+) -> None:
+    away = np.array([9.0, 0.0]) + 9.0 * np.array([math.cos(turn), side * math.sin(turn)])
+    rows = np.array([bend(0, 0), bend(9, 0), bend(*away)])
+    bends = Bends.free(rows, np.arange(3)).turning(radius)
+    assert [sided is bends for sided in with_sides(bends)] == [True]
+    (other,) = turned_otherwise(bends, None)
+    lesser, longer = (turn_path_on_sides(row) for row in (bends, other))
+    assert isinstance(lesser, TurnPath)
+    assert isinstance(longer, TurnPath)
+    assert lesser.turns[1] * side > 0.0
+    assert longer.turns[1] * side < 0.0
+    assert abs(longer.turns[1]) > math.pi
+    assert not list(turned_otherwise(bends, longer))  # its side is set
+    is_wound = abs(lesser.turns[1]) > WOUND_RAD
+    assert len(list(turned_otherwise(bends, lesser))) == is_wound

@@ -26,6 +26,7 @@ from viaspline.planning.turning.turn_path import (
     count_of_sides,
     turn_path_on_sides,
     turn_path_round,
+    turned_otherwise,
     with_sides,
 )
 from viaspline.world.world import World
@@ -73,7 +74,8 @@ def clear_turn_path_or_why(
     """The shortest clear turn path, or where it got stuck; see ``clear_turn_path``.
 
     Being pushed makes a turn path no shorter, but for what shorter ramps save: sides that are
-    longer than what is clear already are left as they are.
+    longer than what is clear already are left as they are. Where none can be cleared, via points
+    are turned at to the other side as well.
     """
     best: TurnPath | None = None
     choices = list(with_sides(bends))
@@ -84,7 +86,14 @@ def clear_turn_path_or_why(
         found = _once_pushed(first, world, requirements, ramp)
         if isinstance(found, TurnPath) and (best is None or found.length < best.length):
             best = found
-    return best or _once_pushed(laid[0], world, requirements, ramp)
+    if best is not None:
+        return best
+    otherwise = (_as_laid(each, ramp, requirements) for each in turned_otherwise(bends, None))
+    for first in sorted(otherwise, key=_length):
+        found = _once_pushed(first, world, requirements, ramp)
+        if isinstance(found, TurnPath):
+            return found
+    return _once_pushed(laid[0], world, requirements, ramp)
 
 
 def _as_laid(bends: Bends, ramp: float, requirements: Requirements) -> TurnPath | NoTurnPath:

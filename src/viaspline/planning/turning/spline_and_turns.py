@@ -44,7 +44,7 @@ def runs_of(blocked: Collection[int], legs: int, closed: bool) -> Iterator[tuple
 
 def turns_on_runs(
     sequence: ViaSequence, bends: Sequence[LegBends], blocked: Collection[int], lay_row: LayRow
-) -> tuple[Floats, list[int], list[int]] | None:
+) -> tuple[Floats, list[int], list[int], float] | None:
     """The spline of a sequence, with turns on its blocked legs.
 
     Args:
@@ -55,7 +55,8 @@ def turns_on_runs(
 
     Returns:
         The spans [m], (m, 4, 2), the span that begins at each via point and m where the last one
-        ends, and the spans that begin at detour via points; None where there is no room.
+        ends, the spans that begin at detour via points, and the largest turn [rad]; None where
+        there is no room.
     """
     if sequence.tangents != "continuous":  # a leg of one cubic can begin or end straight nowhere
         return None
@@ -64,6 +65,7 @@ def turns_on_runs(
     count = len(sequence.legs)
     legs = [spline[first[k] : first[k + 1]] for k in range(count)]
     detours: dict[int, list[int]] = {}
+    largest = 0.0
     for run in runs_of(blocked, count, sequence.closed):
         before, after = run[0] - 1, run[-1] + 1
         if sequence.closed:
@@ -72,6 +74,7 @@ def turns_on_runs(
         turn_path = lay_row(bends_of_legs(part, [bends[k] for k in run]))
         if turn_path is None:
             return None
+        largest = max(largest, turn_path.largest_turn)
         vias = turn_path.bends.vias
         ends = [*turn_path.begins[vias != DETOUR].tolist()[:-1], len(turn_path.spans)]
         for k, a, b in zip(run, ends, ends[1:], strict=False):
@@ -84,7 +87,7 @@ def turns_on_runs(
             legs[after] = flattened(np.ascontiguousarray(legs[after]), True, False)
     joints = np.cumsum([0, *(len(leg) for leg in legs)])
     places = [int(joints[k]) + at for k, inner in detours.items() for at in inner]
-    return np.concatenate(legs), joints.tolist(), sorted(places)
+    return np.concatenate(legs), joints.tolist(), sorted(places), largest
 
 
 def _part(sequence: ViaSequence, run: Sequence[int], begin: Floats, end: Floats) -> ViaSequence:

@@ -17,10 +17,14 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.turning.needed_turns import needed_turns
 from viaspline.kernels.turning.settled_lines import FINE
 from viaspline.kernels.turning.turn_spans import turn_sequence_length, turn_sequence_spans
-from viaspline.planning.turning.bend_row import HEADING, KEPT, SIDE, Bends, X, Y
+from viaspline.planning.turning.bend_row import DETOUR, HEADING, KEPT, SIDE, Bends, X, Y
 
 OVERSHOOT = 1.0035  # of the least radius over the turning circle: cubics bend a little more
 RAMP = 1.0  # length of a ramp, in radii
+WOUND_RAD = 1.1 * math.pi  # a turn by more goes the longer way round
+BACK_RAD = 2.5  # a turn by more goes to the other side as well, where there is no room
+EXACTLY_BACK_RAD = 3.1  # a turn by more goes to either side alike
+MOST_BACK = 2  # of such turns of a row, whose other sides are tried
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +47,11 @@ class TurnPath:
     begins: NDArray[np.int64]
     turns: Floats
     length: float
+
+    @property
+    def largest_turn(self) -> float:
+        """To either side [rad]."""
+        return float(np.abs(self.turns).max(initial=0.0))
 
     def vias_about(self, u: float) -> frozenset[int]:
         """The via point that is next to a parameter of the curve, if a bend that is one is.
@@ -160,21 +169,66 @@ def with_sides(bends: Bends) -> Iterator[Bends]:
 
     One is the lesser turn, to whichever side it comes to be: where the heading is nearly that of
     its line, that is known only once the turns have settled. The other one goes to the other side.
+    At via points at which the path goes back as it came neither side is the lesser one: it goes to
+    either, and to whichever it comes to be, which may settle otherwise.
     """
-    given = _given(bends)
-    if not given:
+    ends = [(k, (0.0, -_lesser_side(bends.rows, k))) for k in _given(bends)]
+    back = [(k, (0.0, side, -side)) for k, side in _turned_back(bends, EXACTLY_BACK_RAD)]
+    if not ends and not back:
         yield bends
         return
-    for sides in product(*((0.0, -_lesser_side(bends.rows, k)) for k in given)):
+    for sides in product(*(each for _, each in (*ends, *back))):
         rows = bends.rows.copy()
-        for k, side in zip(given, sides, strict=True):
+        for (k, _), side in zip((*ends, *back), sides, strict=True):
             rows[k, SIDE] = side
+        set_ones = [k for k, _ in back if rows[k, SIDE] != 0.0]
+        rows[set_ones, HEADING] = 0.0  # between others it says that a side is set
         yield Bends(rows, bends.vias, bends.swings, bends.closed)
 
 
 def count_of_sides(bends: Bends) -> int:
     """How many choices ``with_sides`` has."""
-    return 1 << len(_given(bends))
+    back: int = 3 ** len(_turned_back(bends, EXACTLY_BACK_RAD))
+    return back << len(_given(bends))
+
+
+def turned_otherwise(bends: Bends, turn_path: TurnPath | None) -> Iterator[Bends]:
+    """The row with one of its via points turned at to the other side.
+
+    Args:
+        bends: The row.
+        turn_path: What was laid round it: those are turned otherwise that it turns at the longer
+            way round. None: there is no room, and those at which the path all but turns back.
+    """
+    if turn_path is None:
+        found = _turned_back(bends, BACK_RAD)
+    else:
+        vias, turns = turn_path.bends.vias, turn_path.turns
+        wound = (vias != DETOUR) & np.isnan(turn_path.bends.rows[:, HEADING])
+        wound &= np.abs(turns) > WOUND_RAD
+        sides = zip(vias[wound].tolist(), np.sign(turns[wound]).tolist(), strict=True)
+        found = [(bends.places(via), side) for via, side in sides]
+    for k, side in found:
+        rows = bends.rows.copy()
+        rows[k, SIDE], rows[k, HEADING] = -side, 0.0
+        yield Bends(rows, bends.vias, bends.swings, bends.closed)
+
+
+def _turned_back(bends: Bends, least: float) -> list[tuple[int, float]]:
+    """Via points at which lines between middles turn by at least so much [rad], and to which side.
+
+    Where a side is set already they are left out. They are few, for all choices are laid.
+    """
+    rows = bends.rows
+    middles = np.vstack((rows[-1:], rows, rows[:1]))[:, [X, Y]]
+    lines = np.arctan2(*np.diff(middles, axis=0).T[::-1])
+    turns = np.remainder(np.diff(lines) + math.pi, math.tau) - math.pi
+    free = (bends.vias != DETOUR) & np.isnan(rows[:, HEADING]) & (np.abs(turns) > least)
+    if not bends.closed:
+        free[[0, -1]] = False
+    found = np.flatnonzero(free)
+    furthest = found[np.argsort(-np.abs(turns[found]).round(6), kind="stable")][:MOST_BACK]
+    return [(k, math.copysign(1.0, turns[k])) for k in sorted(furthest.tolist())]
 
 
 def _given(bends: Bends) -> list[int]:
