@@ -144,3 +144,27 @@ def test_a_goal_close_beside_a_wide_disc_is_reached_without_going_right_round_it
     turned = np.unwrap(path.heading(np.linspace(0, len(path.spans), 2001)))
     assert path.length < 5.3
     assert np.ptp(turned) < np.pi
+
+
+def test_legs_are_pushed_clear_where_those_that_are_clear_as_they_are_are_much_longer() -> None:
+    """A turning circle that begins the wrong way swings out to a disc that its leg keeps off."""
+    known = [
+        {"polygon": [[7.29, 14.774], [7.573, 15.215], [7.334, 15.681], [6.81, 15.706],
+                     [6.527, 15.265], [6.766, 14.799]]},
+        {"circle": {"center": [13.81, 11.9], "radius": 1.121}},
+    ]  # fmt: skip
+    robot = {"radius_m": 0.4, "clearance_m": 0.256, "min_turn_radius_m": 1.5}
+
+    def laid(*on_the_way: tuple[float, float]) -> vs.Plan:
+        route = {
+            "start": {"at": [17.91, 7.58], "heading_deg": 54.226},
+            "via": [*({"at": at} for at in on_the_way), {"at": [5.5, 13.23], "dwell_s": 2.0}],
+            "goal": [10.64, 15.85],
+            "optimise": "length",
+        }
+        asked = {"world": {"known": known}, "robot": robot, "route": route}
+        return vs.plan(vs.Mission.model_validate(asked))
+
+    served = laid((9.16818694433221, 11.785609543287817))
+    assert served.path.length < 1.01 * laid().path.length
+    assert served.certificate.holds

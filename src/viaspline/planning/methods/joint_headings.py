@@ -6,14 +6,20 @@ Tested through ``planning/test_plan_path``.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.turning.heading_costs import cheapest
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.turning.clear_ends import with_clear_ends
 from viaspline.planning.turning.headings import (
     HEADING_COUNT,
+    HeadingLeg,
     Poses,
     costs_between,
     posed,
@@ -22,10 +28,14 @@ from viaspline.planning.turning.headings import (
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_problem import TurnProblem
 
+MUCH_LONGER = 1.05  # than the shortest row, where that isn't clear: pushed it may be shorter
+
 
 @dataclass(frozen=True)
 class JointHeadings:
-    """Lays turns between the best row of headings: legs as they are, else pushed clear.
+    """Lays turns between the best row of headings: legs as they are, or pushed clear.
+
+    Pushed are they where none is clear as it is, or only such as are much longer.
 
     Attributes:
         max_rows: Rows of headings that are tried with legs as they are.
@@ -65,7 +75,20 @@ class JointHeadings:
         as_it_is, pushed = map(problem.on_sides, (turn_path_if_clear, clear_turn_path))
         found = posed(legs, costs, closed, as_it_is, self.max_rows, self.max_rows, bound)
         if found is not None:
-            return found
-        costs = with_clear_ends(legs, costs, pushed)
+            if found.length <= MUCH_LONGER * _least_length(legs, costs, closed):
+                return found
+            bound = min(bound, found.length)
         rows, pairs = self.max_pushed_rows, self.max_pushed_pairs
-        return posed(legs, costs, closed, pushed, rows, pairs, bound)
+        try:
+            costs = with_clear_ends(legs, costs, pushed)
+            return posed(legs, costs, closed, pushed, rows, pairs, bound) or found
+        except SpentBudgetError:  # no time is left to look for a shorter one, if there is one
+            if found is None:
+                raise
+            return found
+
+
+def _least_length(legs: Sequence[HeadingLeg], costs: Floats, closed: bool) -> float:
+    """How long the shortest row of legs is, clear or not [m]; see ``posed``."""
+    counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
+    return float(cheapest(costs, counts, closed)[1])
