@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 from viaspline.curve.certificate import PROOF_SLACK_M, Certificate
 from viaspline.curve.path import Path
+from viaspline.error_between import planned_between
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.machine.allowance import TrialDrives, allowance_on_bends, tracking_remedy
 from viaspline.machine.drivability import Drivability
@@ -221,7 +222,16 @@ def as_driven(first: Plan, spending: WorkBudget | None = None) -> Plan:
         if needed <= result.tracking_error:
             return result
         error = ALLOWANCE_GROWTH * max(needed, result.tracking_error)
-        result = with_error(first.mission, first.world, error, spending)
+        plan_with = partial(with_error, first.mission, first.world, spending=spending)
+        try:
+            result = plan_with(error)
+        except PlanningError:
+            less = planned_between(
+                result.tracking_error, error, plan_with, lambda plan: plan._trials.allowance
+            )
+            if less is None:
+                raise
+            return less
     raise GeometryError(
         f"the robot gets ever farther beside its path, {result.tracking_error:.2f} m in the last "
         f"trial drive; give it {tracking_remedy(result.mission.robot)}"
