@@ -96,8 +96,8 @@ def _rounded_by(curve: PiecewiseCubic) -> NDArray[np.float64]:
     begins, ends = (np.divide(off, leg, out=np.zeros_like(leg), where=leg > 0.0)
                     for leg in (first, last))  # fmt: skip
     seam = begins[:1] + ends[-1:] if curve.closed else np.zeros(1)
-    rounded = np.concatenate((seam, begins[1:] + ends[:-1], seam))
-    return np.minimum(rounded, MOST_ROUNDED_RAD)
+    rounded: NDArray[np.float64] = np.concatenate((seam, begins[1:] + ends[:-1], seam))
+    return rounded.clip(max=MOST_ROUNDED_RAD)
 
 
 def self_loops(spans: ArrayLike) -> NDArray[np.bool_]:
