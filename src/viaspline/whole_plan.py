@@ -12,11 +12,11 @@ from functools import cached_property, partial
 
 from viaspline.curve.certificate import PROOF_SLACK_M, Certificate
 from viaspline.curve.path import Path
-from viaspline.error_between import planned_between
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.machine.allowance import TrialDrives, allowance_on_bends, tracking_remedy
 from viaspline.machine.drivability import Drivability
 from viaspline.machine.eased_turns import eased_turns
+from viaspline.machine.error_between import planned_between
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.measure_drivability import drivability_of
 from viaspline.machine.robot_model import is_driven

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import viaspline as vs
-from viaspline.error_between import ERRORS_BETWEEN, planned_between
+from viaspline.machine.error_between import ERRORS_BETWEEN, planned_between
 
 BODY = [[-0.3, -0.35], [1.2, -0.35], [1.2, 0.35], [-0.3, 0.35]]
 
