@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 import tempfile
 from copy import deepcopy
 
@@ -147,6 +148,47 @@ def test_a_ball_flies_through_voxels_as_well() -> None:
     apart = np.linalg.norm(np.maximum(np.maximum(low - places, places - high), 0), axis=1)
     assert apart.min() >= 1.0 - 1e-6
     assert plan.certificate.holds
+
+
+def flight_past_cubes(optimise: str) -> vs.SpatialPlan:
+    """From one side of a floating block to the other, a little nearer to its roof."""
+    blocked = np.zeros((40, 40, 20), bool)
+    blocked[18:22, 17:23, 7:13] = True
+    mission = Mission.model_validate({
+        "world": {"bounds": [0, 0, 40, 40], "altitude": {"min_m": 0.45, "max_m": 19.5},
+                  "known": [{"name": "block", "voxels": vs.Voxels(blocked, 1.0)}]},
+        "robot": {"radius_m": 0.45, "clearance_m": 0.0},
+        "route": {"start": [4.5, 20.5, 10.2], "goal": [35.5, 20.5, 10.2], "optimise": optimise},
+    })  # fmt: skip
+    plan = vs.plan(mission)
+    assert isinstance(plan, vs.SpatialPlan)
+    return plan
+
+
+def test_other_sides_of_cubes_are_looked_for_when_the_ledger_of_a_short_flight_is_read() -> None:
+    plan = flight_past_cubes("length")
+    assert "ledger" not in vars(plan.account)
+    again = pickle.loads(pickle.dumps(plan))
+    assert again == plan
+    (entry,) = plan.ledger
+    assert entry.chosen is not None
+    assert {one.side for one in entry.candidates} == {"over", "under"}
+    assert [one.length for one in again.ledger[0].candidates] == [
+        one.length for one in entry.candidates
+    ]
+    for one in entry.candidates:
+        assert one.length is not None
+        if one.length < entry.chosen.length:  # type: ignore[operator]
+            assert one.passed_over is not None
+
+
+def test_where_time_counts_other_sides_of_cubes_are_weighed_at_once() -> None:
+    plan = flight_past_cubes("time")
+    assert plan.account.others is None
+    durations = [one.duration for one in plan.ledger[0].candidates if one.duration is not None]
+    assert plan.ledger[0].chosen is not None
+    assert len(durations) > 1
+    assert plan.ledger[0].chosen.duration == min(durations)
 
 
 def test_a_plan_in_space_and_its_flight_show_themselves_in_a_line() -> None:

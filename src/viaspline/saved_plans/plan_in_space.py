@@ -27,6 +27,7 @@ from viaspline.saved_plans.served_points import AskedPoint, check_served
 from viaspline.space.among.plan_past_moving import proof_past_moving
 from viaspline.space.part_of_path import part_of_path
 from viaspline.space.solve_route import whole_proof
+from viaspline.space.spatial_account import SpatialAccount
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
@@ -125,8 +126,8 @@ def _alone(
         start_time=mission.route.depart_s,
     )  # fmt: skip
     return SpatialPlan(
-        mission, problem.world, path, certificate, heights, saved_ledger(plan, 3), airborne,
-        problem.limits, yaw, law,
+        mission, problem.world, path, certificate, heights, SpatialAccount(saved_ledger(plan, 3)),
+        airborne, problem.limits, yaw, law,
     )  # fmt: skip
 
 

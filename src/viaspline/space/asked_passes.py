@@ -100,6 +100,8 @@ def passes_of_leg(
         last: Where it ends [m], (3,).
         body: Radius of the body and clearance together [m].
     """
+    if not asked:
+        return []
     line = shapely.LineString([first[:2], last[:2]])
     return [one for one in asked if shapely.distance(line, _outline(one.solid)) <= NEAR * body]
 

@@ -5,25 +5,26 @@ Tested through ``space/test_solve_route`` and ``space/test_plan_spatial``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import Final, NamedTuple
 
 import numpy as np
 
-from viaspline.curve.certificate import certify
-from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.curve.certificate import Certificate
 from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
 from viaspline.space.laying.laid_route import RouteLegs
 from viaspline.space.leg_check import LegCheck
+from viaspline.space.spatial_account import LedLeg, UntoldSides, SpatialAccount
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.weighed_ways import (
     LegScale,
     WaysPast,
+    WeighedWay,
     cheapest,
     corner_radius,
     cost_of,
@@ -65,6 +66,7 @@ class RouteLayer:
         take: Which of the ways of a leg it is led by.
         known: Those that were found, by leg and thing.
         led: Those by which legs are led, by leg.
+        untold: Of which of these the ways on other sides weren't weighed, by leg.
     """
 
     problem: SpatialProblem
@@ -73,6 +75,7 @@ class RouteLayer:
     take: Callable[[LedWays], LedWay] = attrgetter("sooner")
     known: dict[tuple[int, str | None], LedWays] = field(default_factory=dict)
     led: dict[int, LedWays] = field(default_factory=dict)
+    untold: dict[int, LedLeg] = field(default_factory=dict)
 
     @property
     def radius(self) -> float:
@@ -140,6 +143,13 @@ class RouteLayer:
         except PlanningError as error:
             raise StuckLegError(0, np.array(error.where)) from None
 
+    def account(self, found: LedRoute) -> SpatialAccount:
+        """What the search for a route did."""
+        led = sorted(found.entries)
+        untold = {k: self.untold[leg] for k, leg in enumerate(led) if leg in self.untold}
+        others = UntoldSides(self.problem, self.router, untold) if untold else None
+        return SpatialAccount(tuple(found.entries[leg] for leg in led), others)
+
     def _led_by(self, legs: RouteLegs, found: LedRoute, taut: Set[int]) -> LedRoute:
         """A route led round the same things, some of its legs by their taut ways."""
         entries = {}
@@ -150,16 +160,13 @@ class RouteLayer:
         return self.lay(legs, entries)
 
     def _ways(self, leg: int, laid: Floats) -> LedWays:
-        problem = self.problem
-        nearest = certify(
-            PiecewiseCubic(laid), problem.world, problem.clearance, radius=problem.radius
-        )
+        problem, nearest = self.problem, self.check.proof(laid)
         key = leg, nearest.obstacle
         if key not in self.known:
             names = problem.vias[leg].name, problem.vias[leg + 1].name
             members = () if nearest.obstacle is None else (nearest.obstacle,)
             scale = LegScale(problem, self.check, leg)
-            plain = scale.weighed(self.router.ways(leg, laid))
+            plain = self._weighed(scale, nearest)
             best, candidates = cheapest(plain)
             taut = sooner = LedWay(best.inner, LedgerEntry(members, names, candidates))
             way, candidates = cheapest(scale.sooner(plain))
@@ -167,6 +174,19 @@ class RouteLayer:
                 sooner = LedWay(way.inner, LedgerEntry(members, names, candidates))
             self.known[key] = LedWays(taut, sooner)
         return self.known[key]
+
+    def _weighed(self, scale: LegScale, nearest: Certificate) -> Sequence[WeighedWay]:
+        """The ways of a leg that may be taken, with what they cost."""
+        ways = self.router.ways(scale.leg, nearest)
+        self.untold.pop(scale.leg, None)
+        if not self.router.defers(nearest):
+            return scale.weighed(ways)
+        try:
+            found = scale.weighed(ways)
+        except StuckLegError:  # others may be laid
+            return scale.weighed([*ways, *self.router.others(scale.leg, nearest)])
+        self.untold[scale.leg] = LedLeg(scale.leg, nearest)
+        return found
 
 
 def _others(differ: list[int]) -> Iterator[frozenset[int]]:

@@ -6,11 +6,11 @@ Tested through ``space/test_plan_spatial``.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from viaspline.curve.certificate import certify
+from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.height_certificate import certify_heights
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
@@ -25,10 +25,15 @@ class LegCheck:
     Attributes:
         problem: What is asked.
         gates: From a leg to what it has to pass on which sides, (g, 8).
+        known: What was proven of curves that have been looked at, by their spans: ways that are
+            weighed alone are laid once more in their route, and most legs as they were before.
+        passed: Where legs with such curves fail, likewise.
     """
 
     problem: SpatialProblem
     gates: Callable[[int], Floats]
+    known: dict[bytes, Certificate] = field(default_factory=dict)
+    passed: dict[tuple[int, bytes], Floats | None] = field(default_factory=dict)
 
     def __call__(self, leg: int, spans: Floats) -> Floats | None:
         """Where it fails worst [m], (3,); None: it passes.
@@ -37,12 +42,35 @@ class LegCheck:
             leg: Which one.
             spans: Its Bézier control polygons [m], shape (m, 4, 3).
         """
-        asked, curve = self.problem, PiecewiseCubic(spans)
-        certificate = certify(curve, asked.world, asked.clearance, radius=asked.radius)
+        key = leg, spans.tobytes()
+        if key not in self.passed:
+            self.passed[key] = self._failing(leg, spans)
+        return self.passed[key]
+
+    def proof(self, spans: Floats) -> Certificate:
+        """What is proven of the clearance of a curve, (m, 4, 3) [m]."""
+        key, asked = spans.tobytes(), self.problem
+        if key not in self.known:
+            self.known[key] = certify(
+                PiecewiseCubic(spans), asked.world, asked.clearance, radius=asked.radius
+            )
+        return self.known[key]
+
+    def _failing(self, leg: int, spans: Floats) -> Floats | None:
+        """Where a leg's curve fails worst [m], (3,)."""
+        certificate = self.proof(spans)
         if not certificate.holds:
             return np.array(certificate.tightest_at)
-        heights = certify_heights(curve, asked.world)
-        worst = heights.tightest_at
-        if not heights.holds and worst is not None:
-            return np.array(worst.at)
+        if (place := self._wrong_height(spans)) is not None:
+            return place
         return wrong_side(spans, self.gates(leg))
+
+    def _wrong_height(self, spans: Floats) -> Floats | None:
+        """Where a curve leaves its limits of height worst [m], (3,)."""
+        world = self.problem.world
+        z, band = spans[:, :, 2], world.band
+        if not band.knows_ground and z.min() >= band.lowest and z.max() <= band.highest:
+            return None  # no curve leaves the hull of its control polygons
+        heights = certify_heights(PiecewiseCubic(spans), world)
+        worst = heights.tightest_at
+        return None if heights.holds or worst is None else np.array(worst.at)

@@ -13,8 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from viaspline.curve.certificate import certify
-from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.curve.certificate import Certificate
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.space.routing.way_checks import way_cost
@@ -127,33 +126,31 @@ class LegRouter:
         """What the straight way between two places costs [m or s], whatever stands there."""
         return float(way_cost(np.array(self._norm), np.array([first, last], np.float64)))
 
-    def ways(self, leg: int, laid: Floats) -> Sequence[TautWay]:
+    def ways(self, leg: int, proof: Certificate) -> Sequence[TautWay]:
         """The cheapest way of a leg, ones with more room, and ways on other sides of what is near.
+
+        Without these where they are looked for later: see ``defers``.
 
         Args:
             leg: Which one.
-            laid: The curve that isn't clear: spans [m], (m, 4, 3).
+            proof: What is nearest to the curve that it would have, which isn't as it should be.
 
         Raises:
             NoPathError: There is none, proven.
             GaveUpError: None was found.
         """
         gates = self.gates(leg)
-        solid = self._in_the_way(laid)
+        solid = self._in_the_way(proof)
         taut = self._taut(leg)
         cheapest = _way_of(solid, taut)
         most = DEARER * taut.cost
         roomy = list(self._with_room(leg, gates, cheapest.side, most))
-        if solid is None or len(gates):
+        if solid is None or len(gates) or self.defers(proof):
             return _different([cheapest, *roomy])
         ends = self._ends(leg)
-        # Sides of voxels are those of all of them together: seldom what the leg has to pass.
-        worth = most if self.problem.objective == "time" else LONGER * taut.cost
         router = self._router.best_up_to(most)
         if isinstance(solid, Voxels):
-            router = router.up_to(worth)
-            if self.problem.objective == "length":  # they aren't shorter: one search has to do
-                router = router.best_up_to(taut.cost)
+            router = router.up_to(most)
         past = seeds(router, solid, *ends, self.problem.required, self._norm, taut)
         ways = [TautWay(seed.side, seed.route.points[1:-1]) for seed in past]
         for seed in past:
@@ -161,6 +158,34 @@ class LegRouter:
                 one_side = gate(solid, *ends, [seed.side])
                 roomy += self._with_room(leg, one_side, seed.side, most)
         return _different([cheapest, *ways, *roomy])
+
+    def defers(self, proof: Certificate) -> bool:
+        """Whether ways on other sides of what is near are looked for only to be told of.
+
+        Sides of voxels are those of all of them together: seldom what the leg has to pass, and no
+        shorter than the cheapest way, which is where the length counts.
+
+        Args:
+            proof: See ``ways``.
+        """
+        by_length = self.problem.objective == "length"
+        return by_length and isinstance(self._in_the_way(proof), Voxels)
+
+    def others(self, leg: int, proof: Certificate) -> Sequence[TautWay]:
+        """Ways on other sides of what is near that aren't much longer than the cheapest.
+
+        Args:
+            leg: Which one.
+            proof: See ``ways``.
+        """
+        solid = self._in_the_way(proof)
+        if solid is None or len(self.gates(leg)):
+            return ()
+        taut = self._taut(leg)
+        router = self._router.up_to(LONGER * taut.cost).best_up_to(taut.cost)
+        past = seeds(router, solid, *self._ends(leg), self.problem.required, self._norm, taut)
+        ways = [TautWay(seed.side, seed.route.points[1:-1]) for seed in past]
+        return _different([_way_of(solid, taut), *ways])[1:]
 
     def pulled(self, leg: int, way: Floats) -> Floats | None:
         """The corners of a way (n, 3) [m] of a leg pulled taut, (k, 3); None: it isn't free."""
@@ -170,18 +195,18 @@ class LegRouter:
             return None
         return taut.points[1:-1]
 
-    def cheapest(self, leg: int, laid: Floats) -> TautWay:
+    def cheapest(self, leg: int, proof: Certificate) -> TautWay:
         """The cheapest way of a leg alone: found soon, and compared with no other.
 
         Args:
             leg: Which one.
-            laid: The curve that isn't clear: spans [m], (m, 4, 3).
+            proof: See ``ways``.
 
         Raises:
             NoPathError: There is none, proven.
             GaveUpError: None was found.
         """
-        return _way_of(self._in_the_way(laid), self._taut(leg))
+        return _way_of(self._in_the_way(proof), self._taut(leg))
 
     def _taut(self, leg: int) -> TautRoute:
         """The cheapest way of a leg."""
@@ -217,13 +242,9 @@ class LegRouter:
                 return  # where there is no room for less, there is none for more
             yield TautWay(side, outcome.value.points[1:-1])
 
-    def _in_the_way(self, laid: Floats) -> Solid | None:
+    def _in_the_way(self, proof: Certificate) -> Solid | None:
         """The solid that a curve is nearest to; None if that is something else."""
-        problem = self.problem
-        proof = certify(
-            PiecewiseCubic(laid), problem.world, problem.clearance, radius=problem.radius
-        )
-        names = list(problem.world.names)
+        names = list(self.problem.world.names)
         if proof.holds or proof.obstacle not in names:
             return None
         return self.mission.world.standing[names.index(proof.obstacle)].solid()

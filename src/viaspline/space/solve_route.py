@@ -64,11 +64,10 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
     )  # fmt: skip
     found = turns.of(found)
     path, airborne = _whole_path(problem, found)
-    ledger = tuple(found.entries[leg] for leg in sorted(found.entries))
     proof = whole_proof(problem, path, airborne)
     if not proof.holds:
         raise _upright_leg_blocked(problem, proof, airborne)
-    return SpatialSolution(path, proof, ledger, airborne)
+    return SpatialSolution(path, proof, layer.account(found), airborne)
 
 
 def _directions(problem: SpatialProblem) -> Floats:

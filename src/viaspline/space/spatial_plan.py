@@ -19,6 +19,7 @@ from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.named_columns import Table
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
+from viaspline.space.spatial_account import SpatialAccount
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.moving_certificate import MovingCertificate
@@ -42,7 +43,8 @@ class SpatialPlan(ShownValue, SavedValue, ComparedByValue):
         certificate: The proven clearance of the body against everything known; while it takes off
             and lands, the ground it stands on doesn't count.
         heights: What is proven of the path's height, between take-off and landing.
-        ledger: What stood in the way of each leg, and the ways past it.
+        account: What the search did; of voxels, where the length counts, other sides are looked
+            for when its ledger is read.
         airborne: From where to where on the path it is between take-off and landing [m].
         limits: Of its drive.
         yaw: Its heading along the path.
@@ -56,7 +58,7 @@ class SpatialPlan(ShownValue, SavedValue, ComparedByValue):
     path: Path
     certificate: Certificate
     heights: HeightCertificate
-    ledger: tuple[LedgerEntry, ...]
+    account: SpatialAccount
     airborne: tuple[float, float]
     limits: SpatialLimits
     yaw: YawProfile
@@ -65,15 +67,19 @@ class SpatialPlan(ShownValue, SavedValue, ComparedByValue):
     waits: tuple[TrafficWait, ...] = ()
 
     def _said(self) -> tuple[object, ...]:
-        left_out = ("ledger",)
-        return tuple(getattr(self, one.name) for one in fields(self) if one.name not in left_out)
+        return tuple(getattr(self, one.name) for one in fields(self) if one.name != "account")
 
     def __repr__(self) -> str:
         kept = f"{self.certificate.clearance:.2f} m clear"
         return (
             f"<SpatialPlan: {self.path.length:.1f} m in {self.trajectory.duration:.1f} s, {kept}, "
-            f"{len(self.ledger)} detours>"
+            f"{len(self.account.weighed)} detours>"
         )
+
+    @property
+    def ledger(self) -> tuple[LedgerEntry, ...]:
+        """What stood in the way of each leg, and the ways past it."""
+        return self.account.ledger
 
     def samples(self, step: float = USUAL_STEP_M) -> Table:
         """The path as a table, which pandas and polars take as it is.

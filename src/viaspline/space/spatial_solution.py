@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
-from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.space.spatial_account import SpatialAccount
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,11 +20,11 @@ class SpatialSolution:
         path: The whole curve, upright legs included.
         certificate: The proven clearance of the body on all of it; on an upright leg from or to
             the ground, the ground itself doesn't count.
-        ledger: What stood in the way of each leg, and the ways past it.
+        account: What stood in the way of each leg, and the ways past it.
         airborne: From where to where on the path it is off the ground legs [m].
     """
 
     path: Path
     certificate: Certificate
-    ledger: tuple[LedgerEntry, ...]
+    account: SpatialAccount
     airborne: tuple[float, float]

@@ -60,7 +60,7 @@ def static_plan_by(mission: Mission, problem: SpatialProblem, ways: WaysPast) ->
     u = np.asarray(path.parameter(found.airborne)).tolist()
     heights = certify_heights(part_of_path(path, *u), problem.world)
     return SpatialPlan(
-        mission, problem.world, path, found.certificate, heights, found.ledger, found.airborne,
+        mission, problem.world, path, found.certificate, heights, found.account, found.airborne,
         problem.limits, yaw, law,
     )  # fmt: skip
 

@@ -12,13 +12,12 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from viaspline.curve.certificate import certify
+from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.ledger import Candidate, PassingSide
 from viaspline.space.laying.clear_route import (
     LEAST_RADIUS_M,
-    Check,
     StuckLegError,
     tightened_leg,
 )
@@ -26,6 +25,7 @@ from viaspline.space.laying.gentle_turns import ROUND, ROUND_DEARER
 from viaspline.space.laying.leg_polygon import LegPolygon
 from viaspline.space.laying.sooner_corners import sooner_corners
 from viaspline.space.laying.turn_ways import Away
+from viaspline.space.leg_check import LegCheck
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile
@@ -74,13 +74,21 @@ class WaysPast(Protocol):
     def gates(self, leg: int) -> Floats:
         """What a leg has to pass on which sides, (g, 8); see ``routing/pass_gates``."""
 
-    def ways(self, leg: int, laid: Floats) -> Sequence[TautWay]:
-        """All of them that were found, at least one, for a leg whose curve isn't clear.
+    def ways(self, leg: int, proof: Certificate) -> Sequence[TautWay]:
+        """All of them that were found, at least one, for a leg whose curve isn't as it should be.
+
+        ``proof`` says what is nearest to that curve.
 
         Raises:
             NoPathError: There is none, proven.
             GaveUpError: None was found.
         """
+
+    def defers(self, proof: Certificate) -> bool:
+        """Whether ways on other sides are looked for only to be told of: they are no shorter."""
+
+    def others(self, leg: int, proof: Certificate) -> Sequence[TautWay]:
+        """These, where they weren't among ``ways``."""
 
     def pulled(self, leg: int, way: Floats) -> Floats | None:
         """The corners of a way (n, 3) [m] of a leg pulled taut, (k, 3); None: it isn't free."""
@@ -177,7 +185,7 @@ class LegScale:
     """
 
     problem: SpatialProblem
-    check: Check
+    check: LegCheck
     leg: int
 
     def weighed(self, ways: Sequence[TautWay]) -> Sequence[WeighedWay]:
@@ -223,10 +231,10 @@ class LegScale:
             nothing = Candidate(way.side, way.inner, np.empty((0, 4, 3)), impossible=why)
             return WeighedWay(way, nothing, math.inf)
         law = law_of(problem, path)
-        proof = certify(path, problem.world, problem.clearance, radius=problem.radius)
+        clearance = self.check.proof(path.spans).clearance
         candidate = Candidate(
             way.side, way.inner, np.asarray(path.spans), path.length, law.duration,
-            proof.clearance, float(path.max_curvature()[0]),
+            clearance, float(path.max_curvature()[0]),
         )  # fmt: skip
         return WeighedWay(way, candidate, self._cost(path, law))
 

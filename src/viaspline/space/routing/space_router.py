@@ -211,8 +211,8 @@ class SpaceRouter:
     def _by_contacts(self, query: RouteQuery, best: TautRoute | None) -> Floats:
         """One from contact to contact, if it may be cheaper than the best."""
         packed = self.room.packed
-        if not isinstance(packed, PackedSpace):
-            return np.empty((0, 3))
+        if not isinstance(packed, PackedSpace) or self.room.cubes is not None:
+            return np.empty((0, 3))  # cubes have no contacts
         bound = _WORTH * (self.most_cost if best is None else min(best.cost, self.most_cost))
         way: Floats = contact_way(
             packed, query.gates, query.norm, query.ends[0], query.ends[1], query.radius,

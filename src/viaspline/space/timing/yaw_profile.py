@@ -138,7 +138,7 @@ def yaw_profile(
     shares = np.linspace(0.0, 1.0, NODES_PER_SPAN + 1)
     u = np.arange(float(count))[:, None] + shares
     places = path.evaluate(u.ravel())
-    ways = np.concatenate([_tangents(span, shares) for span in path.spans])
+    ways = _tangents(path.spans, shares)
     at = np.asarray(path.distance(u.ravel()))
     headings = np.unwrap(facing.headings(places, ways))
     stops = path.stops
@@ -184,13 +184,14 @@ def _without_rounding(at: Floats, headings: Floats) -> YawProfile:
     return YawProfile(at[keep], headings[keep])
 
 
-def _tangents(span: Floats, shares: Floats) -> Floats:
-    """Unit tangents of one span, at its ends from within."""
-    sides = np.diff(span, axis=0)
+def _tangents(spans: Floats, shares: Floats) -> Floats:
+    """Unit tangents of spans (m, 4, 3) at shares of each, (n,): (m * n, 3); at ends from within."""
+    sides = np.diff(spans, axis=1)[:, :, None]
     w = np.clip(shares, 1e-9, 1.0 - 1e-9)[:, None]
-    ways = (1 - w) ** 2 * sides[0] + 2 * w * (1 - w) * sides[1] + w * w * sides[2]
-    sizes = np.linalg.norm(ways, axis=1)[:, None]
-    return np.asarray(np.divide(ways, sizes, out=np.zeros_like(ways), where=sizes > 0.0))
+    ways = (1 - w) ** 2 * sides[:, 0] + 2 * w * (1 - w) * sides[:, 1] + w * w * sides[:, 2]
+    sizes = np.linalg.norm(ways, axis=2)[:, :, None]
+    unit = np.divide(ways, sizes, out=np.zeros_like(ways), where=sizes > 0.0)
+    return np.asarray(unit.reshape(-1, 3))
 
 
 def _between(at: Floats, first: float, last: float) -> Floats:

@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Final, TypeAlias
 
-from viaspline.curve.certificate import certify
-from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.curve.certificate import Certificate
 from viaspline.kernels.arrays import Floats
 from viaspline.space.leg_router import LegRouter
 from viaspline.space.weighed_ways import TautWay
@@ -38,30 +37,35 @@ class RememberedWays:
         """What a leg has to pass on which sides, (g, 8)."""
         return self._router.gates(leg)
 
-    def ways(self, leg: int, laid: Floats) -> Sequence[TautWay]:
+    def ways(self, leg: int, proof: Certificate) -> Sequence[TautWay]:
         """All ways of a leg; see `LegRouter.ways`.
 
         Raises:
             NoPathError: There is none, proven.
             GaveUpError: None was found.
         """
-        key = self._key(leg, laid)
+        key = self._key(leg, proof)
         if key not in self.known:
-            found = self._router.ways(leg, laid)
+            found = self._router.ways(leg, proof)
             while len(self.known) >= MAX_KNOWN_LEGS:
                 del self.known[next(iter(self.known))]
             self.known[key] = found
         return self.known[key]
 
+    def defers(self, proof: Certificate) -> bool:
+        """Whether ways on other sides are looked for only to be told of."""
+        return self._router.defers(proof)
+
+    def others(self, leg: int, proof: Certificate) -> Sequence[TautWay]:
+        """These; see `LegRouter.others`."""
+        return self._router.others(leg, proof)
+
     def pulled(self, leg: int, way: Floats) -> Floats | None:
         """The corners of a way (n, 3) [m] of a leg pulled taut, (k, 3); None: it isn't free."""
         return self._router.pulled(leg, way)
 
-    def _key(self, leg: int, laid: Floats) -> LegKey:
+    def _key(self, leg: int, proof: Certificate) -> LegKey:
         problem = self._router.problem
-        proof = certify(
-            PiecewiseCubic(laid), problem.world, problem.clearance, radius=problem.radius
-        )
         first, last = problem.vias[leg], problem.vias[leg + 1]
         return first.at.tobytes(), last.at.tobytes(), None if proof.holds else proof.obstacle
 
@@ -77,15 +81,19 @@ class CheapestWays(RememberedWays):
         super().__init__(router, known)
         self.alone = 0
 
-    def ways(self, leg: int, laid: Floats) -> Sequence[TautWay]:
+    def ways(self, leg: int, proof: Certificate) -> Sequence[TautWay]:
         """All ways of a leg if they are known, else the cheapest.
 
         Raises:
             NoPathError: There is none, proven.
             GaveUpError: None was found.
         """
-        key = self._key(leg, laid)
+        key = self._key(leg, proof)
         if key in self.known:
             return self.known[key]
         self.alone += 1
-        return [self._router.cheapest(leg, laid)]
+        return [self._router.cheapest(leg, proof)]
+
+    def defers(self, proof: Certificate) -> bool:
+        """Whether others wait until they are told of: nobody waits for them here."""
+        return False
