@@ -17,7 +17,20 @@ import viaspline as vs
 from viaspline.errors import GaveUpError, NoPathError
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.ledger import Candidate
-from viaspline.space.weighed_ways import SHARP, TautWay, WeighedWay, cheapest
+from viaspline.space.laying.laid_route import RouteLegs
+from viaspline.space.led_route import RouteLayer
+from viaspline.space.leg_check import LegCheck
+from viaspline.space.leg_router import LegRouter
+from viaspline.space.route_law import cost_of
+from viaspline.space.spatial_request import spatial_problem_of
+from viaspline.space.weighed_ways import (
+    NO_CHEAPER,
+    SHARP,
+    TautWay,
+    WeighedWay,
+    by_cost,
+    told,
+)
 
 Floats = NDArray[np.float64]
 RADIUS, HALF, CLEARANCE = 0.5, 0.25, 1.0
@@ -291,6 +304,26 @@ def test_no_via_point_that_nobody_needs_makes_a_flight_sooner(beside: tuple[int,
     assert alone.trajectory.duration <= by_hand.trajectory.duration * (1 + 2e-3)
 
 
+@pytest.mark.parametrize("seed", [7, 39, 56])
+def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int) -> None:
+    """With its neighbour another way is better than the one that is the best alone."""
+    data = city(seed)
+    data["route"]["via"] = [[90, 70, 20]]  # type: ignore[index]
+    mission = Mission.model_validate(data)
+    asked = spatial_problem_of(mission)
+    router = LegRouter(asked, mission)
+    layer = RouteLayer(asked, router, LegCheck(asked, router.gates))
+    free = np.full((3, 3), np.nan)
+    legs = RouteLegs.left_to_the_spline(asked.places, free, asked.shape)
+    together, alone = layer.cheapest(legs)
+    cost = cost_of(asked)
+    assert cost(together.laid) < cost(alone.laid)
+    plan = vs.plan(mission)
+    assert plan.trajectory.duration == pytest.approx(cost(together.laid))
+    better_alone = [one for entry in plan.ledger for one in entry.candidates if one.passed_over]
+    assert NO_CHEAPER in {one.passed_over for one in better_alone}
+
+
 def test_a_way_that_turns_more_sharply_than_the_robot_counts_for_what_it_becomes() -> None:
     """Its turns are laid anew, for up to a fifth more: of two ways that is the one not taken."""
     way = TautWay("left", np.zeros((1, 3)))
@@ -298,9 +331,12 @@ def test_a_way_that_turns_more_sharply_than_the_robot_counts_for_what_it_becomes
     sharp = WeighedWay(way, Candidate("left", way.inner, nothing, duration=39.4), 1.2 * 39.4)
     gentle = WeighedWay(way, Candidate("right", way.inner, nothing, duration=39.7), 39.7)
     slow = WeighedWay(way, Candidate("over", way.inner, nothing, duration=54.0), 54.0)
-    _, candidates = cheapest([sharp, gentle, slow])
+    found = [sharp, gentle, slow]
+    assert by_cost(found) == [gentle, sharp, slow]
+    candidates = told(found, gentle)
     assert [one.chosen for one in candidates] == [False, True, False]
     assert [one.passed_over for one in candidates] == [SHARP, None, None]
+    assert [one.passed_over for one in told(found, slow)] == [NO_CHEAPER, NO_CHEAPER, None]
 
 
 def test_where_a_zone_is_slow_the_way_beside_it_is_flown() -> None:

@@ -26,12 +26,12 @@ from viaspline.saved_plans.saved_search import saved_ledger, saved_waits
 from viaspline.saved_plans.served_points import AskedPoint, check_served
 from viaspline.space.among.plan_past_moving import proof_past_moving
 from viaspline.space.part_of_path import part_of_path
+from viaspline.space.route_law import headings_of, stops_of
 from viaspline.space.solve_route import whole_proof
 from viaspline.space.spatial_account import SpatialAccount
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
-from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import along_limits, retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.limits import Station

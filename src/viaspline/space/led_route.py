@@ -5,7 +5,7 @@ Tested through ``space/test_solve_route`` and ``space/test_plan_spatial``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import Final, NamedTuple
@@ -19,26 +19,29 @@ from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
 from viaspline.space.laying.laid_route import RouteLegs
 from viaspline.space.leg_check import LegCheck
-from viaspline.space.spatial_account import LedLeg, UntoldSides, SpatialAccount
+from viaspline.space.route_law import cost_of
+from viaspline.space.spatial_account import LedLeg, SpatialAccount, UntoldSides
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.weighed_ways import (
     LegScale,
     WaysPast,
     WeighedWay,
-    cheapest,
+    by_cost,
     corner_radius,
-    cost_of,
+    told,
 )
 
 MOST_LEGS: Final = 8
-"""Of so many legs at most it is tried for each by itself which of its corners are better."""
+"""Of so many legs at most it is tried for each by itself which of its ways are better."""
 
+MOST_OTHERS: Final = 3
+"""So many ways of a leg are tried in its route at most, beside the one that is the best alone."""
 
-@dataclass(frozen=True)
-class LedRoute(ClearRoute):
-    """A route, and what the ledger says of the legs that are led round something."""
+NEARLY: Final = 1.1
+"""Ways that cost more alone, of the cheapest, aren't tried there."""
 
-    entries: Mapping[int, LedgerEntry]
+LEAST_GAIN: Final = 1e-3
+"""Part of the cost of a route that has to be gained by one of these."""
 
 
 class LedWay(NamedTuple):
@@ -49,10 +52,21 @@ class LedWay(NamedTuple):
 
 
 class LedWays(NamedTuple):
-    """The best taut way, and the best with fewer corners, which is no slower alone."""
+    """The best taut way, and the best with fewer corners, which is no slower alone.
+
+    Others are as well, nearly; the best first.
+    """
 
     taut: LedWay
     sooner: LedWay
+    others: Sequence[LedWay]
+
+
+@dataclass(frozen=True)
+class LedRoute(ClearRoute):
+    """A route, and the ways of the legs that are led round something."""
+
+    ways: Mapping[int, LedWay]
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,13 +96,17 @@ class RouteLayer:
         """Of curvature, to be had if there is room [m]."""
         return corner_radius(self.problem)
 
-    def cheapest(self, legs: RouteLegs) -> LedRoute:
+    def cheapest(self, legs: RouteLegs) -> Sequence[LedRoute]:
         """The route, each leg by whichever of its ways makes the whole of it cheaper.
 
         Alone, fewer corners are no slower; with neighbours that go on from them they may be.
 
         Args:
             legs: Of the route, left to the spline.
+
+        Returns:
+            That, and the one whose legs are the best alone if that is another: sharp turns may be
+            laid more gently there.
 
         Raises:
             NoPathError: When there is no way, proven.
@@ -98,66 +116,85 @@ class RouteLayer:
         try:
             best = self.lay(legs, {})
         except StuckLegError:  # what was free alone isn't with its neighbours
-            return replace(self, take=attrgetter("taut")).lay(legs, {})
+            return [replace(self, take=attrgetter("taut")).lay(legs, {})]
         cost = cost_of(self.problem)
-        least, taut = cost(best.laid.spans), frozenset[int]()
+        least, taut = cost(best.laid), frozenset[int]()
         differ = [
-            leg for leg in sorted(best.entries) if self.led[leg].taut is not self.led[leg].sooner
+            leg for leg in sorted(best.ways) if self.led[leg].taut is not self.led[leg].sooner
         ]
         for which in _others(differ):
             tried = taut ^ which
-            try:
-                other = self._led_by(legs, best, tried)
-            except (StuckLegError, PlanningError):
-                continue
-            if (price := cost(other.laid.spans)) < least:
+            ways = {
+                leg: self.led[leg].taut if leg in tried else self.led[leg].sooner
+                for leg in best.ways
+            }
+            other = self._led_by(legs, ways)
+            if other is not None and (price := cost(other.laid)) < least:
                 best, least, taut = other, price, tried
+        together = self._best_together(legs, best)
+        return [best] if together is best else [together, best]
+
+    def _best_together(self, legs: RouteLegs, found: LedRoute) -> LedRoute:
+        """A route with other ways of its legs, one after the other, as long as it gets cheaper.
+
+        One leg that is all of the route is weighed alone.
+        """
+        if len(legs.inner) == 1 or len(found.ways) > MOST_LEGS:
+            return found
+        cost = cost_of(self.problem)
+        best, least = found, cost(found.laid)
+        for leg in sorted(found.ways):
+            for way in self.led[leg].others:
+                other = self._led_by(legs, {**best.ways, leg: way})
+                if other is None or (price := cost(other.laid)) >= least * (1 - LEAST_GAIN):
+                    continue
+                best, least = other, price
         return best
 
-    def lay(self, legs: RouteLegs, before: Mapping[int, LedgerEntry]) -> LedRoute:
+    def lay(self, legs: RouteLegs, before: Mapping[int, LedWay]) -> LedRoute:
         """The route with what isn't clear of it led round.
 
         Args:
             legs: Of the route.
-            before: What the ledger says of those that are led round something already.
+            before: The ways of those that are led round something already.
 
         Raises:
             NoPathError: When there is no way, proven.
             GaveUpError: When none was found.
             StuckLegError: When a leg can't be laid.
         """
-        entries = dict(before)
+        ways = dict(before)
 
         def lead_round(leg: int, laid: Floats) -> Floats:
             self.led[leg] = self._ways(leg, laid)
-            inner, entries[leg] = self.take(self.led[leg])
-            return inner
+            ways[leg] = self.take(self.led[leg])
+            return ways[leg].inner
 
         found = clear_route(legs, self.check, lead_round, self.radius)
-        return LedRoute(found.legs, found.laid, entries)
+        return LedRoute(found.legs, found.laid, ways)
 
     def laid_anew(self, legs: RouteLegs, before: LedRoute) -> LedRoute:
         """A route with some of its legs laid in another way; StuckLegError: it can't be."""
         try:
-            return self.lay(legs, before.entries)
+            return self.lay(legs, before.ways)
         except PlanningError as error:
             raise StuckLegError(0, np.array(error.where)) from None
 
     def account(self, found: LedRoute) -> SpatialAccount:
         """What the search for a route did."""
-        led = sorted(found.entries)
+        led = sorted(found.ways)
         untold = {k: self.untold[leg] for k, leg in enumerate(led) if leg in self.untold}
         others = UntoldSides(self.problem, self.router, untold) if untold else None
-        return SpatialAccount(tuple(found.entries[leg] for leg in led), others)
+        return SpatialAccount(tuple(found.ways[leg].entry for leg in led), others)
 
-    def _led_by(self, legs: RouteLegs, found: LedRoute, taut: Set[int]) -> LedRoute:
-        """A route led round the same things, some of its legs by their taut ways."""
-        entries = {}
-        for leg in found.entries:
-            ways = self.led[leg]
-            inner, entries[leg] = ways.taut if leg in taut else ways.sooner
-            legs = legs.led_round(leg, inner, self.radius)
-        return self.lay(legs, entries)
+    def _led_by(self, legs: RouteLegs, ways: Mapping[int, LedWay]) -> LedRoute | None:
+        """A route some legs of which are led by these ways; None: it can't be laid."""
+        for leg, way in ways.items():
+            legs = legs.led_round(leg, way.inner, self.radius)
+        try:
+            return self.lay(legs, ways)
+        except (StuckLegError, PlanningError):
+            return None
 
     def _ways(self, leg: int, laid: Floats) -> LedWays:
         problem, nearest = self.problem, self.check.proof(laid)
@@ -167,12 +204,19 @@ class RouteLayer:
             members = () if nearest.obstacle is None else (nearest.obstacle,)
             scale = LegScale(problem, self.check, leg)
             plain = self._weighed(scale, nearest)
-            best, candidates = cheapest(plain)
-            taut = sooner = LedWay(best.inner, LedgerEntry(members, names, candidates))
-            way, candidates = cheapest(scale.sooner(plain))
-            if way is not best:
-                sooner = LedWay(way.inner, LedgerEntry(members, names, candidates))
-            self.known[key] = LedWays(taut, sooner)
+            better = scale.sooner(plain)
+
+            def led_by(found: Sequence[WeighedWay], taken: WeighedWay) -> LedWay:
+                return LedWay(taken.way.inner, LedgerEntry(members, names, told(found, taken)))
+
+            best, least = by_cost(plain)[0], by_cost(better)
+            taut = sooner = led_by(plain, best)
+            if least[0] is not best:
+                sooner = led_by(better, least[0])
+            others = [one for one in least[1:] if one.cost <= NEARLY * least[0].cost]
+            self.known[key] = LedWays(
+                taut, sooner, [led_by(better, one) for one in others[:MOST_OTHERS]]
+            )
         return self.known[key]
 
     def _weighed(self, scale: LegScale, nearest: Certificate) -> Sequence[WeighedWay]:

@@ -24,18 +24,15 @@ from viaspline.space.laying.via_directions import via_directions
 from viaspline.space.led_route import RouteLayer
 from viaspline.space.leg_check import LegCheck
 from viaspline.space.part_of_path import part_of_path
+from viaspline.space.route_law import LANDING, TAKE_OFF, cost_of
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_solution import SpatialSolution
 from viaspline.space.weighed_ways import (
     WaysPast,
     away_from_things,
-    cost_of,
     least_radius,
 )
 from viaspline.space.without_ground import without_ground
-
-TAKE_OFF, LANDING = "take-off", "landing"
-"""What the places on the ground are called."""
 
 
 def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
@@ -52,7 +49,7 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
     legs = RouteLegs.left_to_the_spline(problem.places, _directions(problem), problem.shape)
     layer = RouteLayer(problem, router, LegCheck(problem, cache(router.gates)))
     try:
-        found = layer.cheapest(legs)
+        routes = layer.cheapest(legs)
     except StuckLegError as stuck:
         raise _gave_up(problem, stuck) from None
     first = problem.vias[0]
@@ -62,7 +59,7 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
         is_rolling=first.dwell is None and first.direction is not None,
         dearer=DEARER if problem.objective == "length" else ROUND_DEARER,
     )  # fmt: skip
-    found = turns.of(found)
+    found = turns.best_of(routes)
     path, airborne = _whole_path(problem, found)
     proof = whole_proof(problem, path, airborne)
     if not proof.holds:

@@ -5,7 +5,6 @@ Tested through ``space/test_plan_spatial``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -15,14 +14,14 @@ from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.space.leg_router import LegRouter
 from viaspline.space.part_of_path import part_of_path
-from viaspline.space.solve_route import LANDING, TAKE_OFF, solve_route
+from viaspline.space.route_law import headings_of, stops_of
+from viaspline.space.solve_route import solve_route
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.timing.retime_in_space import retime_in_space
-from viaspline.space.timing.yaw_profile import YawProfile, yaw_profile
+from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.space.weighed_ways import WaysPast
-from viaspline.trajectory.limits import Station
 from viaspline.trajectory.trajectory import Trajectory
 
 
@@ -83,23 +82,3 @@ def as_if_still(plan: SpatialPlan) -> SpatialPlan:
     problem = spatial_problem_of(plan.mission)
     law = fastest_law(problem, plan.path, plan.yaw, plan.mission.route.depart_s)
     return replace(plan, trajectory=law, moving=None, waits=())
-
-
-def headings_of(problem: SpatialProblem, path: Path) -> YawProfile:
-    """Where the body looks along a path."""
-    a_lap = len(problem.vias) - 1
-    faced = {
-        via.index + lap * a_lap: via.look_at
-        for lap in range(problem.laps)
-        for via in problem.vias
-        if via.look_at is not None and via.index is not None
-    }
-    looks = [(k, faced[via.index]) for k, (via, _) in enumerate(path.stops) if via.index in faced]
-    return yaw_profile(path, problem.facing, looks)
-
-
-def stops_of(problem: SpatialProblem, path: Path) -> Iterator[Station]:
-    """Where the robot hovers: its stations, and the tops of take-off and landing."""
-    for via, distance in zip(path.vias, path.via_distances.tolist(), strict=True):
-        if via.dwell > 0.0 or via.name in (TAKE_OFF, LANDING):
-            yield Station(distance, via.dwell, via.name)

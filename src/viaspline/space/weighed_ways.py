@@ -6,7 +6,7 @@ Tested through ``space/test_plan_spatial``.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final, Protocol
 
@@ -26,9 +26,8 @@ from viaspline.space.laying.leg_polygon import LegPolygon
 from viaspline.space.laying.sooner_corners import sooner_corners
 from viaspline.space.laying.turn_ways import Away
 from viaspline.space.leg_check import LegCheck
+from viaspline.space.route_law import law_of, part_of_route
 from viaspline.space.spatial_problem import SpatialProblem
-from viaspline.space.timing.retime_in_space import retime_in_space
-from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.trajectory import Trajectory
 
 GENTLEST_M: Final = 200.0
@@ -44,6 +43,8 @@ HOPEFUL: Final = 1.2
 
 
 SHARP: Final = "turns more sharply than the robot itself"
+
+NO_CHEAPER: Final = "the whole path is no sooner with it"
 
 
 NEAR: Final = 4.0
@@ -99,22 +100,6 @@ def least_radius(problem: SpatialProblem) -> float:
     return max(problem.radius, float(problem.world.packed.core[0]))
 
 
-def cost_of(problem: SpatialProblem) -> Callable[[Floats], float]:
-    """By what curves are chosen, from their spans (m, 4, 3): time, from rest to rest, or length."""
-
-    def cost(spans: Floats) -> float:
-        path = Path(spans, [])
-        return path.length if problem.objective == "length" else law_of(problem, path).duration
-
-    return cost
-
-
-def law_of(problem: SpatialProblem, path: Path) -> Trajectory:
-    """The fastest law along a curve alone, from rest to rest, wherever the body looks."""
-    ahead = YawProfile(np.array([0.0, path.length]), np.zeros(2))
-    return retime_in_space(path, problem.limits, (), ahead, zones=problem.zones)
-
-
 def away_from_things(problem: SpatialProblem) -> Away:
     """The direction away from what is so near to a place that a turn may reach it."""
     near = problem.required + NEAR * least_radius(problem)
@@ -161,17 +146,21 @@ class WeighedWay:
     cost: float
 
 
-def cheapest(found: Sequence[WeighedWay]) -> tuple[TautWay, tuple[Candidate, ...]]:
-    """The cheapest of some ways, and all of them for the ledger."""
-    best = min(range(len(found)), key=lambda k: found[k].cost)
-    least = found[best].candidate.duration
+def by_cost(found: Sequence[WeighedWay]) -> Sequence[WeighedWay]:
+    """Those of some ways that can be taken, the cheapest first."""
+    return sorted((one for one in found if math.isfinite(one.cost)), key=lambda one: one.cost)
+
+
+def told(found: Sequence[WeighedWay], taken: WeighedWay) -> tuple[Candidate, ...]:
+    """Some ways for the ledger, one of which is taken."""
+    most = taken.candidate.duration or 0.0
     candidates = []
-    for k, one in enumerate(found):
+    for one in found:
         words = None
-        if one.cost > found[best].cost and (one.candidate.duration or math.inf) < (least or 0.0):
-            words = SHARP
-        candidates.append(replace(one.candidate, chosen=k == best, passed_over=words))
-    return found[best].way, tuple(candidates)
+        if one is not taken and (one.candidate.duration or math.inf) < most:
+            words = SHARP if one.cost > taken.cost else NO_CHEAPER
+        candidates.append(replace(one.candidate, chosen=one is taken, passed_over=words))
+    return tuple(candidates)
 
 
 @dataclass(frozen=True, eq=False)
@@ -263,7 +252,8 @@ class LegScale:
             StuckLegError: When it isn't clear, however tight it is.
         """
         polygon = self._polygon(points, corner_radius(self.problem))
-        return Path(tightened_leg(polygon, self.leg, self.check).curve(), [])
+        spans = tightened_leg(polygon, self.leg, self.check).curve()
+        return part_of_route(self.problem, spans, self.leg, [0, len(spans)])
 
     def _polygon(self, points: Floats, radius: float) -> LegPolygon:
         """Free in direction where no direction is asked for."""

@@ -40,7 +40,7 @@ def turns(check: Check = free) -> GentleTurns[ClearRoute]:
         return clear_route(legs, check, nothing_in_the_way, GENTLE)
 
     return GentleTurns(
-        LEAST, GENTLE, lay, lambda spans: Path(spans, []).length, nothing_near, straight
+        LEAST, GENTLE, lay, lambda laid: Path(laid.spans, []).length, nothing_near, straight
     )
 
 

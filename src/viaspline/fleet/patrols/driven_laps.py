@@ -20,10 +20,10 @@ from viaspline.fleet.patrols.repeated_laws import (
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.planning.plan_drive import repeated
+from viaspline.space.route_law import headings_of, stops_of
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
-from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import YawProfile

@@ -17,10 +17,11 @@ from viaspline.fleet.patrols.driven_laps import law_of_flown_laps
 from viaspline.fleet.patrols.repeated_laws import laws_in_a_row
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.route_spec import EndPoint
+from viaspline.space.route_law import headings_of
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
-from viaspline.space.static_plan import fastest_law, headings_of
+from viaspline.space.static_plan import fastest_law
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.trajectory import Trajectory

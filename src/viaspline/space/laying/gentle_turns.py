@@ -12,7 +12,7 @@ What isn't clear then, or no gentler, is left as it was.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, Generic, NamedTuple, TypeVar
 
@@ -22,7 +22,7 @@ from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError
 from viaspline.space.laying.fewer_corners import fewer_corners
-from viaspline.space.laying.laid_route import RouteLegs
+from viaspline.space.laying.laid_route import LaidRoute, RouteLegs
 from viaspline.space.laying.turn_arcs import arc, asides
 from viaspline.space.laying.turn_ways import (
     LEAST_WAY,
@@ -62,8 +62,8 @@ Route = TypeVar("Route", bound=ClearRoute)
 Lay = Callable[[RouteLegs, Route], Route]
 """Lays a clear route anew, some legs of which are another way now; StuckLegError: it can't be."""
 
-Cost = Callable[[Floats], float]
-"""What spans (m, 4, 3) cost to fly: time or length."""
+Cost = Callable[[LaidRoute], float]
+"""What a curve costs to fly: time or length."""
 
 
 Pull = Callable[[int, Floats], Floats | None]
@@ -119,6 +119,18 @@ class GentleTurns(Generic[Route]):
             found = self._bent(found, left[0])
         return found
 
+    def best_of(self, routes: Sequence[Route]) -> Route:
+        """The cheapest of some clear routes with their sharp turns laid gently.
+
+        One that stays sharp counts for as much more as it may cost to get round.
+        """
+
+        def price(route: Route) -> float:
+            return self.cost(route.laid) * (self.dearer if self._lack(route) > 0.0 else 1.0)
+
+        gentle = [self.of(route) for route in routes]
+        return gentle[0] if len(gentle) == 1 else min(gentle, key=price)
+
     def _sharp(self, found: ClearRoute) -> Iterator[_Turn]:
         """The legs of a route that are too sharp, each with what is near to where."""
         for leg in range(len(found.legs.inner)):
@@ -138,7 +150,7 @@ class GentleTurns(Generic[Route]):
     def _bent(self, found: Route, turn: _Turn) -> Route:
         """A route with one of its turns laid anew; itself, where that gains nothing."""
         best, rank = found, (self._lack(found) - LEAST_GAIN, math.inf)
-        most = self.cost(found.laid.spans)
+        most = self.cost(found.laid)
         for several in self._other_turns(found, turn):
             for legs in several:
                 try:
@@ -146,7 +158,7 @@ class GentleTurns(Generic[Route]):
                 except StuckLegError:
                     continue
                 its = self._lack(laid)
-                if its > rank[0] or (its, cost := self.cost(laid.laid.spans)) >= rank:
+                if its > rank[0] or (its, cost := self.cost(laid.laid)) >= rank:
                     continue
                 dearer = self.dearer if self._is_round(laid, turn) else DEARER
                 if cost <= dearer * most:

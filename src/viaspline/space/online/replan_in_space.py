@@ -19,9 +19,9 @@ from viaspline.space.among.timed_past import solids_beside, timed_past
 from viaspline.space.leg_router import LegRouter
 from viaspline.space.online.flown_leg import FlownLeg
 from viaspline.space.online.takeover import Takeover
+from viaspline.space.route_law import headings_of, stops_of
 from viaspline.space.solve_route import solve_route
 from viaspline.space.spatial_problem import SpatialProblem, SpatialVia
-from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile
 

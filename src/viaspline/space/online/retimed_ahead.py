@@ -18,8 +18,8 @@ from viaspline.space.among.moving_solid import MovingSolid
 from viaspline.space.among.timed_past import kept_about
 from viaspline.space.online.flown_leg import FlownLeg
 from viaspline.space.online.takeover import LATENCY_S
+from viaspline.space.route_law import stops_of
 from viaspline.space.spatial_problem import SpatialProblem
-from viaspline.space.static_plan import stops_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.trajectory import Trajectory

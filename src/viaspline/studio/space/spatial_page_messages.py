@@ -15,7 +15,7 @@ from viaspline.planning.problem.ledger import Candidate
 from viaspline.report.drivability_json import drivability_data
 from viaspline.report.json_text import plain
 from viaspline.report.space.heights_json import heights_rows
-from viaspline.space.solve_route import LANDING, TAKE_OFF
+from viaspline.space.route_law import LANDING, TAKE_OFF
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.studio.page_numbers import finite, flat, rounded
 from viaspline.studio.plan_messages import grids, law_data, problem_data
