@@ -122,14 +122,22 @@ class GentleTurns(Generic[Route]):
     def best_of(self, routes: Sequence[Route]) -> Route:
         """The cheapest of some clear routes with their sharp turns laid gently.
 
-        One that stays sharp counts for as much more as it may cost to get round.
+        One that stays sharp counts for as much more as it may cost to get round. Those that cost as
+        much before that aren't looked at.
         """
+        best, least = self.of(routes[0]), math.inf
+        for route in routes[1:]:
+            least = min(least, self._price(best))
+            if self.cost(route.laid) >= least:
+                continue
+            gentle = self.of(route)
+            if (price := self._price(gentle)) < least:
+                best, least = gentle, price
+        return best
 
-        def price(route: Route) -> float:
-            return self.cost(route.laid) * (self.dearer if self._lack(route) > 0.0 else 1.0)
-
-        gentle = [self.of(route) for route in routes]
-        return gentle[0] if len(gentle) == 1 else min(gentle, key=price)
+    def _price(self, route: Route) -> float:
+        """What a route costs, or more where it is too sharp."""
+        return self.cost(route.laid) * (self.dearer if self._lack(route) > 0.0 else 1.0)
 
     def _sharp(self, found: ClearRoute) -> Iterator[_Turn]:
         """The legs of a route that are too sharp, each with what is near to where."""
