@@ -133,3 +133,11 @@ def test_a_turn_for_which_there_is_no_room_stays_as_it_was() -> None:
 
     assert sharpest(sharp) < LEAST
     assert turns(narrow).of(sharp) is sharp
+
+
+def test_a_turn_that_is_hardly_too_sharp_gets_round_as_well() -> None:
+    """By less than what a turn has to gain that stays too sharp: a flight was rough by 0.3 %."""
+    found = spline(np.array([[0.0, 0, 9], [30, 0, 9], [40, 20, 9]]))
+    least = sharpest(found) / 0.997
+    bent = replace(turns(), least=least).of(found)
+    assert sharpest(bent) >= 0.999 * least

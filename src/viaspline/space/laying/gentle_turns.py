@@ -43,7 +43,7 @@ ARC_SHARE: Final = 0.77
 """The radius in the middle of such a corner, of the arc's: it is gentler before and after."""
 
 LEAST_GAIN: Final = 0.002
-"""By so many orders of magnitude at least a turn has to get gentler."""
+"""By so many orders of magnitude at least a turn has to get gentler, if not round enough."""
 
 DEARER: Final = 1.02
 """So much more a turn may cost that gets gentler, and still isn't round enough."""
@@ -157,7 +157,7 @@ class GentleTurns(Generic[Route]):
 
     def _bent(self, found: Route, turn: _Turn) -> Route:
         """A route with one of its turns laid anew; itself, where that gains nothing."""
-        best, rank = found, (self._lack(found) - LEAST_GAIN, math.inf)
+        best, rank = found, (max(self._lack(found) - LEAST_GAIN, 0.0), math.inf)
         most = self.cost(found.laid)
         for several in self._other_turns(found, turn):
             for legs in several:
@@ -183,7 +183,7 @@ class GentleTurns(Generic[Route]):
         """By how much the legs of a route are too sharp together, each by orders of magnitude."""
         sharpest = (_sharpest(found.laid.leg(leg))[0] for leg in range(len(found.legs.inner)))
         sharp = (max(radius, NO_RADIUS_M) for radius in sharpest if radius < ROUND * self.least)
-        return sum(round(math.log10(self.least / radius), 3) for radius in sharp)
+        return sum(max(round(math.log10(self.least / radius), 3), 1e-3) for radius in sharp)
 
     def _other_turns(self, found: Route, turn: _Turn) -> Iterator[Iterator[RouteLegs]]:
         """Ways to turn in place of the one that is too sharp, the likelier ones first."""
