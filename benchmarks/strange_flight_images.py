@@ -94,9 +94,14 @@ class Placed:
         for line in (folder / "hills.asc").read_text().splitlines():
             (head if line[0].isalpha() else rows).append(line)
         moved = {"xllcenter": self.shift[0], "yllcenter": self.shift[1]}
-        told = [f"{key} {float(value) + moved.get(key, 0.0):.10g}" for key, value in map(str.split, head)]
+        told = [
+            f"{key} {float(value) + moved.get(key, 0.0):.10g}"
+            for key, value in map(str.split, head)
+        ]
         told = [line.replace(".0", "") if line.startswith("n") else line for line in told]
-        heights = [" ".join(f"{float(h) + self.shift[2]:.10g}" for h in row.split()) for row in rows]
+        heights = [
+            " ".join(f"{float(h) + self.shift[2]:.10g}" for h in row.split()) for row in rows
+        ]
         (folder / "moved.asc").write_text("\n".join([*told, *heights]) + "\n", encoding="ascii")
         return "moved.asc"
 
@@ -181,7 +186,11 @@ def reversed_route(data: Data) -> Data | None:
     route, world = data["route"], data["world"]
     if "takeoff" in route or "land" in route or any("motion" in one for one in world["known"]):
         return None
-    if data["robot"].get("max_jerk_mps3") or world.get("altitude", {}).get("above", "home") == "home" and "altitude" in world:
+    if (
+        data["robot"].get("max_jerk_mps3")
+        or world.get("altitude", {}).get("above", "home") == "home"
+        and "altitude" in world
+    ):
         return None
     new = copy.deepcopy(data)
     route = new["route"]
@@ -242,7 +251,10 @@ def capsules_in_two(data: Data) -> Data | None:
             continue
         first, last = np.array(one["capsule"]["from"]), np.array(one["capsule"]["to"])
         for name, (a, b) in (("", (0.0, 0.6)), (" too", (0.4, 1.0))):
-            ends = {"from": (first + a * (last - first)).tolist(), "to": (first + b * (last - first)).tolist()}
+            ends = {
+                "from": (first + a * (last - first)).tolist(),
+                "to": (first + b * (last - first)).tolist(),
+            }
             known.append({**one, "name": one["name"] + name, "capsule": {**one["capsule"], **ends}})
     found = len(known) > len(new["world"]["known"])
     new["world"]["known"] = known
@@ -319,23 +331,36 @@ def main() -> None:
             folder = Path(name)
             data = base_of(seed, tuple(asked.kind), folder)
             first = outcome(data, folder, "base")
-            print(f"{seed} {first[0]} {first[1]:.2f} {first[2]} {first[4]:.2f} s", file=sys.stderr, flush=True)
+            print(
+                f"{seed} {first[0]} {first[1]:.2f} {first[2]} {first[4]:.2f} s",
+                file=sys.stderr,
+                flush=True,
+            )
             for word, image in images(data, folder, seed):
                 if asked.image and word not in asked.image:
                     continue
                 other = outcome(image, folder, word)
                 if other[0] != first[0]:
                     told[f"{word}: outcome"] += 1
-                    print(f"{seed} {word}: {first[0]} but {other[0]}: {first[3] or other[3]}", flush=True)
+                    print(
+                        f"{seed} {word}: {first[0]} but {other[0]}: {first[3] or other[3]}",
+                        flush=True,
+                    )
                 elif first[0] == "planned":
                     ratio = other[1] / first[1]
                     ratios.setdefault(word, []).append(ratio)
                     if abs(ratio - 1.0) > ALIKE:
                         told[f"{word}: cost"] += 1
-                        print(f"{seed} {word}: {first[1]:.3f} but {other[1]:.3f} ({ratio:.4f})", flush=True)
+                        print(
+                            f"{seed} {word}: {first[1]:.3f} but {other[1]:.3f} ({ratio:.4f})",
+                            flush=True,
+                        )
                     if other[2] != first[2]:
                         told[f"{word}: verdict"] += 1
-                        print(f"{seed} {word}: {first[2]} but {other[2]}: {first[3]} | {other[3]}", flush=True)
+                        print(
+                            f"{seed} {word}: {first[2]} but {other[2]}: {first[3]} | {other[3]}",
+                            flush=True,
+                        )
     for word, its in ratios.items():
         print(f"{word}: {len(its)}, mean {np.mean(its):.5f}, {min(its):.4f} to {max(its):.4f}, "
               f"{sum(abs(r - 1) > ALIKE for r in its)} differ")  # fmt: skip

@@ -272,3 +272,22 @@ def test_a_way_is_pulled_only_if_it_is_free() -> None:
 def test_junk_is_refused_by_name(start: object, required: float, norm: object) -> None:
     with pytest.raises(GeometryError, match=r"start|required|norm"):
         router([]).find(start, (1, 1, 5), required, norm)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("seed", [107, 154, 193, 224])
+def test_something_far_outside_makes_no_route_dearer(seed: int) -> None:
+    """Its lattice was one of all that there is, with steps as long as the town."""
+    rng = np.random.default_rng(seed)
+    solids = town(rng)
+    start, goal = rng.uniform((-49, -49, 2), (49, 49, 59), (2, 3))
+    far = RoundedSegment((3000.0, -2000.0, 20.0), (3000.0, -2000.0, 20.0), 4.0)
+    costs = []
+    for solids_of_all in (solids, [*solids, far]):
+        world = SpatialWorld.of(
+            solids_of_all, ground=0.0, band=HeightBand(lowest=1.0, highest=60.0),
+            core_radius=0.3, core_half_height=0.2,
+        )  # fmt: skip
+        outcome = SpaceRouter(SearchRoom.of_world(world)).find(start, goal, 0.5, SPEEDS)
+        assert isinstance(outcome, Found)
+        costs.append(outcome.cost)
+    assert costs[1] <= 1.0025 * costs[0]

@@ -118,8 +118,9 @@ class SearchRoom:
         return cls(block, 0.0, limits, extent, np.array([*middle, voxels.cell]))
 
     def lattice(
-        self, start: Floats, goal: Floats, margin: float, halvings: int = 0
-    ) -> PlaceLattice:
+        self, start: Floats, goal: Floats, margin: float, halvings: int = 0,
+        reach: float = math.inf,
+    ) -> PlaceLattice:  # fmt: skip
         """A lattice that a way between two places lies in.
 
         Args:
@@ -127,11 +128,13 @@ class SearchRoom:
             goal: [m], (3,).
             margin: Beyond the solids, where nothing limits the places [m].
             halvings: How often its step is halved.
+            reach: How far from both places what lies about is that its step counts on [m].
         """
         low, high = self._box(start, goal, margin)
         step = float(self.anchor[3])
         if step == 0.0:
-            step = _step_for(high - low)
+            nearest, farthest = np.minimum(start, goal) - reach, np.maximum(start, goal) + reach
+            step = _step_for(np.minimum(high, farthest) - np.maximum(low, nearest))
         step /= 2.0**halvings
         low, high = self._box(start, goal, margin + _MARGIN_STEPS * step)
         first = low.copy()

@@ -50,6 +50,7 @@ _LEAST_SIZE_M = 1e-3
 _CHEAPER = 10  # places among voxels alone for one among solids
 _COARSE = 1.1  # times what a taut way may cost: a way through a lattice that becomes it
 _ROUNDING = 1e-6  # of such a hair: by what answers about cubes may differ from those of a world
+_ABOUT = 1.0  # of the way as the crow flies: what lies so near to its ends is as large as it
 _WORTH = 1.01  # times the best so far: what a way may cost before it is pulled taut
 
 
@@ -136,17 +137,24 @@ class SpaceRouter:
             route = TautRoute(ends, float(way_cost(speeds, ends)), radius)
             return Found(route, route.cost)
         query = RouteQuery(ends, radius, speeds, gates, 2.0 * (radius + self.room.body))
+        reach = _ABOUT * float(np.linalg.norm(ends[1] - ends[0]))
+        lattice = self.room.lattice(ends[0], ends[1], query.margin, reach=reach)
+        best = self._by_lattice(query, lattice)
+        best = self._better(query, self._by_contacts(query, best), best)
+        return self._by_finer(query, lattice) if best is None else Found(best, best.cost)
+
+    def _by_finer(self, query: RouteQuery, tried: PlaceLattice) -> SpaceOutcome:
+        """A route through lattices of all that there is, where one that suits its ends has none."""
         resolution = 0.0
         for halvings in range(self.halvings + 1):
-            lattice = self.room.lattice(ends[0], ends[1], query.margin, halvings)
-            best = self._by_lattice(query, lattice)
-            if halvings == 0:
-                best = self._better(query, self._by_contacts(query, best), best)
-            if best is not None:
-                return Found(best, best.cost)
+            lattice = self.room.lattice(*query.ends, query.margin, halvings)
+            resolution = float(lattice.frame[3])
+            if resolution != tried.frame[3]:
+                best = self._by_lattice(query, lattice)
+                if best is not None:
+                    return Found(best, best.cost)
             if refusal := self._refused(query, halvings):
                 return refusal
-            resolution = float(lattice.frame[3])
         return self._gave_up(query, resolution)
 
     def pulled(
