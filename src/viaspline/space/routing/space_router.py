@@ -147,7 +147,7 @@ class SpaceRouter:
         """A route through lattices of all that there is, where one that suits its ends has none."""
         resolution = 0.0
         for halvings in range(self.halvings + 1):
-            lattice = self.room.lattice(*query.ends, query.margin, halvings)
+            lattice = self.room.lattice(query.ends[0], query.ends[1], query.margin, halvings)
             resolution = float(lattice.frame[3])
             if resolution != tried.frame[3]:
                 best = self._by_lattice(query, lattice)
