@@ -18,6 +18,12 @@ SOURCES = {
     "asked_protocol.py": "def answers(): ...",
     "asker.py": "from viaspline.kernels.asked_protocol import answers\n",
     "answer.py": "from viaspline.kernels.asked_protocol import answers\n@answers(1)\ndef f(): ...",
+    "route_protocol.py": "def answers_route(): ...",
+    "searcher.py": "from viaspline.kernels.route_protocol import answers_route\n",
+    "moves.py": (
+        "from viaspline.kernels.route_protocol import answers_route\n"
+        "@answers_route(1)\ndef f(): ..."
+    ),
     "alone.py": "y = 2",
     "kernel_cache.py": "z = 3",
     "kept.py": "import viaspline.kernels.kernel_cache\n",
@@ -58,6 +64,24 @@ def test_an_edit_moves_the_keys_of_those_who_reach_it_and_no_others(
 def test_who_asks_a_protocol_depends_on_who_answers_it(moved: Callable[..., set[str]]) -> None:
     edit = SOURCES["answer.py"] + "  # edited"
     assert moved(answer=edit) == {"answer", "asker", "asked_protocol"}
+
+
+def test_who_asks_a_protocol_of_its_own_depends_on_who_answers_it_as_well(
+    moved: Callable[..., set[str]],
+) -> None:
+    edit = SOURCES["moves.py"] + "  # edited"
+    assert moved(moves=edit) == {"moves", "searcher", "route_protocol"}
+
+
+def test_a_search_for_routes_depends_on_what_its_spaces_answer() -> None:
+    root = Path(kernels.__path__[0])
+    files = {source_keys._name(root, file): file for file in root.rglob("*.py")}
+    sources = {name: files[name].read_bytes() for name in files.keys() - source_keys.KEEPERS}
+    near = source_keys._neighbours(sources)
+    routing = f"{PACKAGE}.space.routing"
+    for search in ("lazy_theta", "pull_taut", "way_checks", "contact_graph"):
+        reached = source_keys._reached(f"{routing}.{search}", near)
+        assert {f"{routing}.shape_moves", f"{routing}.voxel_moves"} <= reached
 
 
 def test_who_keeps_compiled_kernels_is_in_no_key(moved: Callable[..., set[str]]) -> None:

@@ -18,7 +18,7 @@ from pathlib import Path
 
 PACKAGE = "viaspline.kernels"
 _IMPORT = re.compile(rb"^\s*(?:from|import) (viaspline\.kernels[\w.]*)(?: import ([^\n]*))?", re.M)
-_ANSWERS = re.compile(rb"^@answers\(", re.M)
+_ANSWERS = re.compile(rb"^@answers\w*\(", re.M)
 _KEY_LENGTH = 16
 KEEPERS = frozenset(
     f"{PACKAGE}.{name}"
