@@ -105,3 +105,22 @@ def test_a_ball_in_a_closed_box_is_apart_from_the_world() -> None:
     assert are_apart(world.packed, lattice, inside, outside, 0.5, 10**6) == (APART, 0)
     opened = SpatialWorld.of(walls[:-1])
     assert are_apart(opened.packed, lattice, inside, outside, 0.5, 10**6)[0] != APART
+
+
+@settings(max_examples=40)
+@given(seed=st.integers(0, 10_000))
+def test_a_free_way_keeps_its_height_over_cliffs_as_well(seed: int) -> None:
+    """Ground bends over lines of nodes; between two looks half a cell apart a cliff was missed."""
+    rng = np.random.default_rng(seed)
+    hills = np.tile(np.cumsum(rng.choice([0.0, 0.0, 12.0, -12.0], 12)), (12, 1))
+    ground = Terrain(hills if seed % 2 else hills.T.copy(), 5.0)
+    band = HeightBand(least_above_ground=15.0)
+    world = SpatialWorld.of([], ground=ground, band=band)
+    ends = rng.uniform((1, 1, 0), (54, 54, 1), (2, 3))
+    ends[:, 2] += np.asarray(ground.height_at(ends[:, :2])) + 15.0
+    places = ends[0] + np.linspace(0.0, 1.0, 4001)[:, None] * (ends[1] - ends[0])
+    least = (places[:, 2] - np.asarray(ground.height_at(places[:, :2]))).min()
+    if way_is_free(world.packed, NO_GATES, ends, 0.1):
+        assert least >= 15.0 - 1e-9
+    else:  # clearance counts from the highest corner of each patch
+        assert least < 15.0 + 1e-2 or world.distance(places).min() < 0.11

@@ -1,7 +1,7 @@
 """What a packed space answers to a search for a route: see ``route_protocol``.
 
-Limits of height above ground are looked at on lattice places, vertices, and along a way from patch
-to patch of the ground; what is exact is the proof of the path that is laid.
+Limits of height above ground are looked at on lattice places, vertices, and along a way over every
+line of nodes of the ground and between; what is exact is the proof of the path that is laid.
 """
 
 from __future__ import annotations
@@ -61,6 +61,27 @@ def _heights_are_allowed(
         t = look / looks
         if not _height_is_allowed(space, x + t * dx, y + t * dy, z + t * dz):
             return False
+    return _edges_are_allowed(space, x, y, z, dx, dy, dz)
+
+
+@inner
+def _edges_are_allowed(
+    space: PackedSpace, x: float, y: float, z: float, dx: float, dy: float, dz: float
+) -> bool:
+    """Whether a way keeps the limits over lines of nodes: ground bends there, by cliffs as well."""
+    step = space.ground_frame[2]
+    for axis in range(2):
+        way = (dx if axis == 0 else dy) / step
+        if way == 0.0:
+            continue
+        first = ((x if axis == 0 else y) - space.ground_frame[axis]) / step
+        row = math.ceil(min(first, first + way))
+        end = min(math.floor(max(first, first + way)), row + _MOST_LOOKS)
+        while row <= end:
+            t = min(max((row - first) / way, 0.0), 1.0)
+            if not _height_is_allowed(space, x + t * dx, y + t * dy, z + t * dz):
+                return False
+            row += 1
     return True
 
 
