@@ -3,6 +3,8 @@ import math
 import numpy as np
 import pytest
 
+import viaspline as vs
+from viaspline.maps.terrain import Terrain
 from viaspline.mission.model import Mission
 from viaspline.space.spatial_request import spatial_limits_of, spatial_problem_of
 from viaspline.space.timing.yaw_profile import FacingAlong, FacingFixed, FacingPlace
@@ -89,3 +91,28 @@ def test_a_vertical_acceleration_as_large_as_the_one_along_the_path_is_a_limit_t
     assert limits.vertical_accel == 1
     limits = spatial_limits_of(mission(robot={**asked, "max_vertical_accel_mps2": 1.25}))
     assert limits.vertical_accel is None
+
+
+@pytest.mark.parametrize("altitude", [None, {"min_m": 9, "above": "ground"}])
+@pytest.mark.parametrize("steep", [0.0, 1.5])
+def test_uphill_it_lands_from_as_high_as_the_ground_there_asks_for(
+    altitude: dict[str, object] | None, steep: float
+) -> None:
+    x = np.arange(0.0, 101.0, 5.0)
+    heights = np.clip(steep * (x - 40.0), 0.0, 60.0) + 20.0 * (x > 60)
+    hill = Terrain(np.tile(heights, (21, 1)), 5.0)
+    asked = Mission.model_validate({
+        "world": {"ground": {"terrain": hill}, **({"altitude": altitude} if altitude else {})},
+        "robot": {"radius_m": 0.5, "half_height_m": 0.2, "clearance_m": 1.5},
+        "route": {"start": [10, 50, 12], "land": {"at": [72.5, 52.5]}},
+    })  # fmt: skip
+    problem = spatial_problem_of(asked)
+    top = problem.vias[-1].at
+    over = top[2] - float(hill.height_at((72.5, 52.5)))
+    assert problem.world.distance(top) >= 1.5
+    assert over >= (9.0 if altitude else 1.7)
+    assert over < 12.0
+    plan = vs.plan(asked)
+    assert plan.certificate.holds
+    flight = vs.fly(plan)
+    assert flight.reached

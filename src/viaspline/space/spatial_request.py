@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import Final
 
 import numpy as np
 
@@ -21,6 +23,12 @@ from viaspline.space.timing.yaw_profile import Facing, FacingAlong, FacingFixed,
 from viaspline.trajectory.limits import Limits
 from viaspline.world.space.height_band import HeightBand
 from viaspline.world.space.spatial_world import SpatialWorld
+
+MOST_LIFTS: Final = 50
+"""How often the place over a landing is lifted: each time by what it lacks, over steep ground."""
+
+LIFT_M: Final = 1e-3
+"""By so much more."""
 
 
 def spatial_problem_of(mission: Mission) -> SpatialProblem:
@@ -40,7 +48,7 @@ def spatial_problem_of(mission: Mission) -> SpatialProblem:
     robot, route = mission.robot, mission.route
     places = flight_places(mission)
     vias = list(_vias(mission, places))
-    return SpatialProblem(
+    problem = SpatialProblem(
         world=spatial_world_of(mission, places),
         vias=vias,
         clearance=robot.clearance_m + (robot.tracking_error_m or 0.0),
@@ -56,6 +64,24 @@ def spatial_problem_of(mission: Mission) -> SpatialProblem:
         laps=route.laps if route.closed else 1,
         zones=mission.world.speed_zones,
     )
+    if places.landing is None or route.closed or route.goal is not None:
+        return problem
+    return replace(problem, vias=[*vias[:-1], _lifted(vias[-1], problem)])
+
+
+def _lifted(top: SpatialVia, problem: SpatialProblem) -> SpatialVia:
+    """The place over a landing, as high as the ground there asks for: it may lie uphill."""
+    world, at = problem.world, top.at.copy()
+    ground = float(world.ground_at(at[None])[0])
+    least = -math.inf if math.isnan(ground) else ground + world.band.least_above_ground
+    at[2] = max(at[2], least, world.band.lowest)
+    for _ in range(MOST_LIFTS):
+        distance, nearest = world.nearest(at[None])
+        lacking = problem.required - float(distance[0])
+        if lacking <= 0.0 or int(nearest[0]) != len(world.names):
+            break  # of what else is there it is said that it is in the way
+        at[2] += lacking + LIFT_M
+    return replace(top, at=at)
 
 
 def spatial_limits_of(mission: Mission) -> SpatialLimits:
