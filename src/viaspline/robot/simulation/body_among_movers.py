@@ -14,7 +14,7 @@ from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 OVERLAPS_M = -1e-6
-"""The distance to what lies over the body, however deep it does [m]."""
+"""The distance to what lies over the body, at most [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +88,8 @@ class BodyAmongMovers:
         standing = World([one.obstacles[0].model_copy(update={"motion": None})])
         to_body = standing.body_distance(seen, headings - frames[:, 2], self.robot.footprint)
         off = standing.distance(seen) - away[worth]  # how far off it may be
-        gaps[worth] = np.where(to_body > 0.0, to_body, OVERLAPS_M) - off
+        over = np.minimum(gaps[worth], OVERLAPS_M)  # how deep isn't known: no deeper than in a disc
+        gaps[worth] = np.where(to_body > 0.0, to_body - off, over)
         return gaps
 
 
