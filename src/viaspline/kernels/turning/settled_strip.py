@@ -14,7 +14,7 @@ from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.bent_strip import bent_strip
 from viaspline.kernels.turning.strip_places import has_kink, strip_normals, strip_places
-from viaspline.kernels.turning.strip_room import strip_room
+from viaspline.kernels.turning.strip_room import is_open_strip, open_room, strip_room
 from viaspline.kernels.turning.strip_spans import strip_spans
 from viaspline.kernels.turning.swept_sides import StripBody, swept_sides
 from viaspline.kernels.world.packed import PackedWorld
@@ -63,14 +63,55 @@ def _looking(
     world: PackedWorld, body: StripBody, ends: Floats, closed: bool, places: Floats, joints: Ints,
     fixed: Flags, normals: Floats, low: Floats, high: Floats,
 ) -> StripPlaces:  # fmt: skip
-    """A strip at places, with a look at the room that it has there."""
-    spans = strip_spans(places, normals, ends, closed)
+    """A strip at places, with a look at the room that it has there.
+
+    The curve through them is left out in the open, where nobody looks at it: see ``_laid``.
+    """
+    spans = np.empty((0, 4, 2))
+    has_free_ends = closed or (math.isnan(ends[0, 0]) and math.isnan(ends[1, 0]))
+    if body.outline.shape[0] > 0 or not has_free_ends:  # given ends move the places beside them
+        spans = strip_spans(places, normals, ends, closed)
     reach, rooms = np.empty(low.size), np.empty(low.size)
     beside, kept = np.empty(low.size), np.empty(low.size)
     swept_sides(world, body, closed, places, normals, spans, beside, kept)
     kept *= 1.0 + body.slack
-    strip_room(world, places, normals, spans, beside, kept, low, high, reach, rooms)
+    if spans.shape[0] == 0 and is_open_strip(world, places, beside, kept):
+        open_room(places, kept, reach, rooms)
+    else:
+        if spans.shape[0] == 0:
+            spans = strip_spans(places, normals, ends, closed)
+        strip_room(world, places, normals, spans, beside, kept, low, high, reach, rooms)
     return StripPlaces(closed, places, joints, fixed, normals, spans, low, high, reach, rooms)
+
+
+@inner
+def _laid(strip: StripPlaces, ends: Floats) -> StripPlaces:
+    """A strip with the curve through its places."""
+    if strip.spans.shape[0] > 0:
+        return strip
+    spans = strip_spans(strip.places, strip.normals, ends, strip.closed)
+    return StripPlaces(
+        strip.closed, strip.places, strip.joints, strip.fixed, strip.normals, spans, strip.low,
+        strip.high, strip.reach, strip.rooms,
+    )  # fmt: skip
+
+
+@inner
+def _placed(
+    world: PackedWorld, body: StripBody, ends: Floats, closed: bool, fineness: float, spans: Floats,
+    joints: Ints,
+) -> StripPlaces:  # fmt: skip
+    """See ``placed_strip``; the curve may be left out."""
+    step, turn = STEP * body.required / fineness, TURN_RAD / fineness
+    places, at = strip_places(spans, joints, step, turn, LEAST_PLACES, MOST_PLACES)
+    count = places.shape[0]
+    low, high = np.full(count, -np.inf), np.full(count, np.inf)
+    fixed = np.zeros(count, np.bool_)
+    fixed[at] = True
+    fixed[1] |= not math.isnan(ends[0, 0])
+    fixed[count - 2] |= not math.isnan(ends[1, 0])
+    normals = strip_normals(places, closed)
+    return _looking(world, body, ends, closed, places, at, fixed, normals, low, high)
 
 
 @kernel
@@ -90,16 +131,7 @@ def placed_strip(
         spans: The curve: Bézier control polygons [m], (m, 4, 2).
         joints: The span that begins at each via point, its start among them; m at its end, (k,).
     """
-    step, turn = STEP * body.required / fineness, TURN_RAD / fineness
-    places, at = strip_places(spans, joints, step, turn, LEAST_PLACES, MOST_PLACES)
-    count = places.shape[0]
-    low, high = np.full(count, -np.inf), np.full(count, np.inf)
-    fixed = np.zeros(count, np.bool_)
-    fixed[at] = True
-    fixed[1] |= not math.isnan(ends[0, 0])
-    fixed[count - 2] |= not math.isnan(ends[1, 0])
-    normals = strip_normals(places, closed)
-    return _looking(world, body, ends, closed, places, at, fixed, normals, low, high)
+    return _laid(_placed(world, body, ends, closed, fineness, spans, joints), ends)
 
 
 @inner
@@ -132,7 +164,7 @@ def _moved(
             places[j, axis] += moved[j] * strip.normals[j, axis]
     if turned > LITTLE_TURNED:
         spans = strip_spans(places, strip.normals, ends, strip.closed)
-        return placed_strip(world, body, ends, strip.closed, fineness, spans, strip.joints), most
+        return _placed(world, body, ends, strip.closed, fineness, spans, strip.joints), most
     looked = _looking(
         world, body, ends, strip.closed, places, strip.joints, strip.fixed, strip.normals, low, high
     )  # fmt: skip
@@ -162,8 +194,8 @@ def settled_strip(
     for _ in range(MOST_ROUNDS):
         strip, most = _moved(world, body, ends, fineness, strip, tension, sharp)
         if has_kink(strip.places):
-            return strip, False
+            return _laid(strip, ends), False
         missing = settled * MISSING * body.slack * body.required
         if most < settled * body.required and strip.rooms.min() > -missing:
-            return strip, True
-    return strip, False
+            return _laid(strip, ends), True
+    return _laid(strip, ends), False

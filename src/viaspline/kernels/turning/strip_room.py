@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inlined, kernel
+from viaspline.kernels.jit import inlined, kernel, uncounted
 from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 
@@ -95,8 +95,10 @@ def _least_sampled(
 
 
 @inlined
-def _is_open(world: PackedWorld, places: Floats, beside: Floats, kept: Floats) -> bool:
+def is_open_strip(world: PackedWorld, places: Floats, beside: Floats, kept: Floats) -> bool:
     """Whether nothing stands so near to any place of a strip that it would be looked for.
+
+    Nor is any curve through its places looked at then.
 
     Args:
         world: What stands there.
@@ -134,6 +136,29 @@ def _is_open(world: PackedWorld, places: Floats, beside: Floats, kept: Floats) -
     return True
 
 
+@uncounted
+def open_room(places: Floats, kept: Floats, reach: Floats, rooms: Floats) -> None:
+    """Tell how far the places of a strip may move in the open: as far as anything is looked for.
+
+    Args:
+        places: See ``strip_room``,
+        kept: the same,
+        reach: the same,
+        rooms: and the same.
+    """
+    count, before = places.shape[0], 0.0
+    for j in range(count):
+        after = 0.0
+        if j + 1 < count:
+            after = math.hypot(
+                places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
+            )  # fmt: skip
+        half = 0.5 * max(before, after)
+        rooms[j] = half + REACH * kept[j] - kept[j]
+        reach[j] = max(half + REACH * kept[j] - half, LEAST_REACH * kept[j])
+        before = after
+
+
 @kernel
 def strip_room(
     world: PackedWorld, places: Floats, normals: Floats, spans: Floats, beside: Floats,
@@ -157,7 +182,10 @@ def strip_room(
         rooms: Distance beyond what is kept, about each [m], (n,); filled.
     """
     count = places.shape[0]
-    before, is_open = 0.0, _is_open(world, places, beside, kept)
+    if is_open_strip(world, places, beside, kept):
+        open_room(places, kept, reach, rooms)
+        return
+    before = 0.0
     for j in range(count):
         after = 0.0
         if j + 1 < count:
@@ -165,11 +193,6 @@ def strip_room(
                 places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
             )  # fmt: skip
         half = 0.5 * max(before, after)
-        if is_open:
-            rooms[j] = half + REACH * kept[j] - kept[j]
-            reach[j] = max(half + REACH * kept[j] - half, LEAST_REACH * kept[j])
-            before = after
-            continue
         nx, ny = normals[j]
         off = (beside[j] * nx, beside[j] * ny)
         gap, _ = nearest(
