@@ -108,7 +108,9 @@ class FleetPlan(ShownValue, MovingValue, SavedValue, ComparedByValue):
 
     @property
     def is_spatial(self) -> bool:
-        """Whether its robots fly."""
+        """Whether its robots fly: all of them, or none."""
+        for plan in self.plans.values():
+            return isinstance(plan, SpatialPlan)
         return self.fleet.is_spatial
 
     @property

@@ -342,3 +342,10 @@ def test_a_round_that_ends_where_another_stays_is_told_as_that(tmp_path: Path) -
     (fault,) = str(error.value).splitlines()
     assert "'b' stays for good 0.5 m from where 'a' does" in fault
     assert "set rest: leave for 'a'" in fault
+
+
+def test_a_robot_keeps_the_names_that_its_mission_has_for_its_topics() -> None:
+    there = {"route": {"start": [0, 0], "goal": [9, 0]}}
+    named = vs.Mission.model_validate({**there, "ros": {"cmd_vel_topic": "/cart/cmd_vel"}})
+    found = Fleet.of([vs.FleetMember("cart", named)])
+    assert found.members[0].mission.ros == named.ros

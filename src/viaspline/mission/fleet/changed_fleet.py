@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
+
+import numpy as np
 
 from viaspline.errors import MissionError
 from viaspline.mission.clearances import ROUND_OFF_M
@@ -32,7 +33,7 @@ def changed_fleet(before: Fleet, members: Sequence[FleetMember], changed: FleetM
     if changed.mission.world != before.world:
         return Fleet.of(members, before.separation_m)
     beside = [one for one in members if one.name != changed.name]
-    near = [one for one in beside if _may_be_too_near(one, changed, before.separation_m)]
+    near = _maybe_too_near(beside, changed, before.separation_m)
     try:
         Fleet.of([changed, *near], before.separation_m)
     except MissionError:
@@ -55,11 +56,23 @@ def sound_fleet_of(before: Fleet, members: Sequence[FleetMember]) -> Fleet:
     return Fleet.model_construct(parts.model_fields_set, **dict(parts))
 
 
-def _may_be_too_near(one: FleetMember, other: FleetMember, separation: float) -> bool:
-    """Whether two robots may stand too near each other at one of their ends."""
-    reach = separation + ROUND_OFF_M + _radius(one) + _radius(other)
-    ends = list(_ends(other))
-    return any(math.dist(place, there) <= reach for place in _ends(one) for there in ends)
+def _maybe_too_near(
+    members: Sequence[FleetMember], other: FleetMember, separation: float
+) -> list[FleetMember]:
+    """Those that may stand too near a robot at one of their ends: all that are asked at once."""
+    if not members:
+        return []
+    ends = [place for one in members for place in _ends(one)]
+    counts = [_count_ends(one) for one in members]
+    at = np.array(ends, float)
+    apart = np.array([np.hypot(*(at - place).T) for place in _ends(other)]).min(axis=0)
+    nearest = np.minimum.reduceat(apart, np.cumsum([0, *counts[:-1]]))
+    kept = separation + ROUND_OFF_M + _radius(other)
+    return [
+        one
+        for one, gap in zip(members, nearest.tolist(), strict=True)
+        if gap <= kept + _radius(one)
+    ]
 
 
 def _radius(one: FleetMember) -> float:
@@ -75,3 +88,9 @@ def _ends(one: FleetMember) -> Iterator[tuple[float, ...]]:
         yield route.goal.at[:2]
     elif route.via:
         yield from (via.at[:2] for via in route.via)
+
+
+def _count_ends(one: FleetMember) -> int:
+    """How many places ``_ends`` has."""
+    route = one.mission.route
+    return 1 + (1 if route.goal is not None else len(route.via))

@@ -12,10 +12,14 @@ from viaspline.mission.fleet.fleet_parts import FleetParts
 from viaspline.mission.fleet.member_spec import MemberSpec
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.ros_spec import RosSpec
 from viaspline.mission.route_spec import Route
 from viaspline.mission.spline_spec import SplineSpec
 
 AnyKind = TypeVar("AnyKind")
+
+USUAL_ROS = RosSpec()
+"""Of robots that don't say how their ROS 2 calls its topics."""
 
 
 def kind_in(kinds: Mapping[str, AnyKind], name: str | None) -> AnyKind | None:
@@ -63,10 +67,11 @@ def parts_of(member: MemberSpec, fleet: FleetParts) -> MissionParts:
     """
     robot = robot_of(member, fleet)
     assert robot is not None, "a robot is of a kind that there is"
-    # Built of values that are sound: they are not validated again for each robot.
+    # Built of values that are sound: they are not validated again, nor copied, for each robot.
     return MissionParts.model_construct(
         world=fleet.world,
         robot=robot,
         route=route_of(member),
         spline=spline_of(member, fleet),
+        ros=USUAL_ROS if member.asked is None else member.asked.ros,
     )
