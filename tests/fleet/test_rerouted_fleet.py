@@ -10,16 +10,23 @@ import pytest
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_ways import FleetWays
+from viaspline.fleet.laying.kept_paths import PathAlone
+from viaspline.fleet.laying.lay_round_stretch import lay_round_stretch
 from viaspline.fleet.rerouted_fleet import rerouted_fleet
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
+from viaspline.planning.problem.work_budget import WorkBudget
 
 APART = 1.1  # centre to centre: twice a radius of 0.4 m, and 0.3 m between
 
 
-def loop(*ends: tuple[Any, Any], **more: Any) -> Fleet:
+CART = {"radius_m": 0.4, "clearance_m": 0.1, "max_speed_mps": 1.5}
+LONG = {"footprint": [[-0.6, -0.3], [0.6, -0.3], [0.6, 0.3], [-0.6, 0.3]], "clearance_m": 0.1}
+
+
+def loop(*ends: tuple[Any, Any], kind: dict[str, Any] = CART, **more: Any) -> Fleet:
     """A ring of two aisles, the lower one shorter, in which two robots can't pass."""
     hole = [[2, 2], [28, 2], [28, 12], [2, 12]]
     robots = [
@@ -29,7 +36,7 @@ def loop(*ends: tuple[Any, Any], **more: Any) -> Fleet:
         {
             "world": {"bounds": [0, 0, 30, 14], "known": [{"polygon": hole}]},
             "separation_m": 0.3,
-            "robots": {"cart": {"radius_m": 0.4, "clearance_m": 0.1, "max_speed_mps": 1.5}},
+            "robots": {"cart": kind},
             "fleet": robots,
         }
     )
@@ -74,6 +81,28 @@ def test_without_a_budget_all_stays_as_it_was() -> None:
     before, paths = timed(fleet)
     assert paths.laid.kept is not None
     assert rerouted_fleet(before, paths.laid.kept, fleet.separation_m, 0.0) is before
+
+
+@pytest.mark.parametrize(("kind", "needs_work"), [(LONG, True), (CART, False)])
+def test_a_body_is_led_round_if_that_is_found_with_what_may_be_spent(
+    kind: dict[str, Any], needs_work: bool
+) -> None:
+    fleet = loop(*SWAP, kind=kind)
+    before, paths = timed(fleet)
+    kept = paths.laid.kept
+    assert kept is not None
+    alone, other = kept.alone["r0"], paths.laid.plans["r1"]
+    assert isinstance(alone, PathAlone)
+    reach = before.ways.courses.packed.reach.tolist()
+    works = [WorkBudget(limit) for limit in (0.0, 5.0)]
+    without, found = (
+        lay_round_stretch(alone, "r0", reach[0], kept.rests, other, reach[1], (5.0, 20.0), work)
+        for work in works
+    )
+    assert found is not None
+    assert found.certificate.holds
+    assert (without is None) == needs_work
+    assert (works[1].spent > 0.0) == needs_work
 
 
 def test_who_waits_long_goes_round_and_never_is_anybody_later_in_the_sum() -> None:

@@ -19,6 +19,7 @@ from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.law_search import priority_weights
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.planning.problem.work_budget import WorkBudget
 
 LAYINGS_A_TRY = 2.0
 """What a try costs, in layings of a path: it is laid alone, and among resting places."""
@@ -26,6 +27,8 @@ BOXES_A_S = 800_000
 """Boxes of crossings that are timed in a second of the reference machine."""
 SHORTEST_WAIT_S = 1.0
 """Waits that are shorter are left as they are [s]."""
+MOST_SHARE = 0.25
+"""Of what may be spent, that one try may spend on finding a path at all."""
 LEAST_GAIN_S = 0.5
 """A path that saves less in all isn't taken [s]."""
 
@@ -77,7 +80,9 @@ def rerouted_fleet(
         if progress is not None:
             progress(spent / budget)
         tried.add(_key(stretch))
-        found = _rerouted(best, stretch, kept, separation)
+        work = WorkBudget(min(MOST_SHARE * budget, budget - spent))
+        found = _rerouted(best, stretch, kept, separation, work)
+        spent += work.spent
         if found is None:
             continue
         then = _score(found, asked)
@@ -139,9 +144,10 @@ def _either(robots: Ints, span: Floats, first: int) -> Iterator[ContestedStretch
 
 
 def _rerouted(
-    timed: TimedFleet, stretch: ContestedStretch, kept: KeptPaths, separation: float
-) -> TimedFleet | None:
-    """The fleet with one robot off a stretch of another one's path; None if there is no path."""
+    timed: TimedFleet, stretch: ContestedStretch, kept: KeptPaths, separation: float,
+    work: WorkBudget,
+) -> TimedFleet | None:  # fmt: skip
+    """The fleet with one robot off a stretch of another one's path; None if none is found."""
     ways, robot, other = timed.ways, stretch.robot, stretch.other
     name = ways.courses.names[robot]
     alone = kept.alone[name]
@@ -150,7 +156,7 @@ def _rerouted(
     reach = ways.courses.packed.reach
     found = lay_round_stretch(
         alone, name, float(reach[robot]), kept.rests, ways.planar[other], float(reach[other]),
-        stretch.between,
+        stretch.between, work,
     )  # fmt: skip
     if found is None:
         return None

@@ -19,6 +19,7 @@ import numpy as np
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces
 from viaspline.fleet.laying.rests_as_obstacles import world_with_rests
+from viaspline.fleet.laying.soon_laid import check_soon_laid
 from viaspline.fleet.laying.step_aside import can_step_aside, stepped_aside
 from viaspline.fleet.laying.stranded_robots import no_way_past_stranded, stranded_at_point
 from viaspline.kernels.arrays import Floats, Ints
@@ -27,6 +28,7 @@ from viaspline.planner import Plan, plan_in
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import SpentBudgetError, WorkBudget
 from viaspline.world.world import World
 
 KEPT_MORE_M = 0.1
@@ -58,8 +60,9 @@ class LaidPath:
 
 
 def lay_among_rests(
-    alone: Plan, mission: Mission, name: str, reach: float, rests: RestingPlaces
-) -> LaidPath:
+    alone: Plan, mission: Mission, name: str, reach: float, rests: RestingPlaces,
+    work: WorkBudget | None = None,
+) -> LaidPath:  # fmt: skip
     """Lay the path of a robot round the resting places of others.
 
     Args:
@@ -68,10 +71,12 @@ def lay_among_rests(
         name: The robot.
         reach: How far it keeps others away on its part [m].
         rests: Of all robots.
+        work: What may be spent on paths of a body; None: as much as it takes.
 
     Raises:
         NoPathError: When there is no path round robots that can't leave.
-        GaveUpError: When none was found, or it isn't proven that these can't leave.
+        GaveUpError: When none was found, or it isn't proven that these can't leave, or what may be
+            spent was spent before that was known.
     """
     own = rests.of_robot(name)
     points = _points(mission)
@@ -92,7 +97,7 @@ def lay_among_rests(
             plan = aside
             break
         round_them.update(_more_in_the_way(eased, reach, round_them, others, seen))
-        plan, past = _laid(alone, mission, reach, eased, round_them, past)
+        plan, past = _laid(alone, mission, reach, eased, round_them, past, work)
         round_them -= past
     passed = rests.near(plan.path.spans, reach, own).tolist()
     stands = [k for k in passed if k in stuck]
@@ -188,19 +193,23 @@ def _laid(
     rests: RestingPlaces,
     round_them: set[int],
     past: frozenset[int],
+    work: WorkBudget | None,
 ) -> tuple[Plan, frozenset[int]]:
     """The plan round as many places as there is a way round, and those that it may pass.
 
     Raises:
-        PlanningError: When there is no way round those that can't leave.
+        PlanningError: When there is no way round those that can't leave, or what may be spent is.
     """
     stuck = rests.stranded
     trying = sorted(round_them)
     while trying:
         try:
-            found = plan_in(
-                mission, world_with_rests(alone, mission, reach, rests, trying, KEPT_MORE_M)
-            )
+            among = world_with_rests(alone, mission, reach, rests, trying, KEPT_MORE_M)
+            if work is not None:
+                check_soon_laid(mission, among, alone.tracking_error, work)
+            found = plan_in(mission, among)
+        except SpentBudgetError:
+            raise
         except (PlanningError, GeometryError) as error:
             if set(trying) <= stuck:
                 raise no_way_past_stranded(alone, mission, reach, rests, trying) from error

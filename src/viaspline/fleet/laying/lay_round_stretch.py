@@ -17,10 +17,12 @@ from viaspline.fleet.laying.kept_paths import PathAlone
 from viaspline.fleet.laying.lay_among_rests import KEPT_MORE_M, lay_among_rests
 from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces
 from viaspline.fleet.laying.rests_as_obstacles import world_with_rests
+from viaspline.fleet.laying.soon_laid import check_soon_laid
 from viaspline.kernels.arrays import Floats
 from viaspline.planner import Plan, plan_in
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import WorkBudget
 
 APART_SHARE = 0.7
 """Places along a stretch are so far apart, as a share of what two robots keep."""
@@ -40,7 +42,7 @@ def laying_cost(plan: Plan) -> float:
 
 def lay_round_stretch(
     alone: PathAlone, name: str, reach: float, rests: RestingPlaces, other: Plan,
-    other_reach: float, stretch: tuple[float, float],
+    other_reach: float, stretch: tuple[float, float], work: WorkBudget,
 ) -> Plan | None:  # fmt: skip
     """Lay the path of a robot round resting places, and off a stretch of another one's path.
 
@@ -52,10 +54,11 @@ def lay_round_stretch(
         other: The plan of the other one.
         other_reach: How far that one keeps others away on its part [m].
         stretch: From where to where along its path [m].
+        work: What may be spent where a body isn't led round in no time.
 
     Returns:
-        A plan, proven in the world as it is; None where there is none, or where the robot itself
-        has to get to that stretch.
+        A plan, proven in the world as it is; None where there is none, or none that is found with
+        that, or where the robot itself has to get to that stretch.
     """
     places = _places(other, reach + other_reach, stretch)
     points = np.array([via.at[:2] for _, via in alone.mission.route.points()])
@@ -69,8 +72,9 @@ def lay_round_stretch(
     indices = range(len(free))
     world = world_with_rests(alone.plan, alone.mission, reach, discs, indices, KEPT_MORE_M)
     try:
+        check_soon_laid(alone.mission, world, alone.plan.tracking_error, work)
         off = plan_in(alone.mission, world)
-        found = lay_among_rests(off, alone.mission, name, reach, rests).plan
+        found = lay_among_rests(off, alone.mission, name, reach, rests, work).plan
     except (PlanningError, GeometryError):
         return None
     as_it_is = alone.plan.world

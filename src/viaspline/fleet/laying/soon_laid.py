@@ -1,0 +1,44 @@
+"""Whether the path of a body is found soon, before it is laid for as long as it takes.
+
+A disc is led round anything in milliseconds. A body with a turning circle or corners is sought a
+way for among poses, which may take half a minute where there is none; what may be spent on trying
+another path is counted in work, and that is told by a search that counts it.
+
+Tested through ``fleet/test_rerouted_fleet``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from viaspline.mission.model import Mission
+from viaspline.planning.plan_drive import find_drive
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.world.world import World
+
+
+def check_soon_laid(mission: Mission, world: World, error: float, work: WorkBudget) -> None:
+    """Find a path for a body within what may be spent, and take off as much for laying it.
+
+    Its own path isn't that one: with time to spare it is bent more gently.
+
+    Args:
+        mission: What is to be planned.
+        world: What it keeps clear of.
+        error: How far the robot gets beside its path [m].
+        work: What may be spent.
+
+    Raises:
+        SpentBudgetError: When that didn't do.
+        PlanningError: When there is none, or none was found.
+    """
+    requirements = Requirements.of(mission, error)
+    if requirements.is_free_disc:
+        return
+    if mission.spline.tension == "auto":
+        spline = requirements.spline.model_copy(update={"tension": None})
+        requirements = replace(requirements, spline=spline)
+    before = work.spent
+    find_drive(mission, world, requirements.within(work))
+    work.spent += work.spent - before
