@@ -188,13 +188,17 @@ def test_robots_that_only_stand_are_compared() -> None:
     assert proven(spots).separation == pytest.approx(4.0, abs=1e-3)
 
 
-def test_a_robot_that_slows_down_smoothly_beside_another_is_proven_as_far_off_as_it_stays() -> None:
+@pytest.mark.parametrize("spare", [2e-3, 5e-4, 1e-5])
+def test_a_robot_that_slows_down_smoothly_beside_another_is_proven_as_far_off_as_it_stays(
+    spare: float,
+) -> None:
     """Its last centimetre takes 0.24 s, in which its law is 3 mm off constant acceleration.
 
-    Found by strange_fleet_runs.py (9127000): a plan was said not to hold.
+    Found by strange_fleet_runs.py (9127000) and transformed_fleets.py (2 186): plans were said not
+    to hold, by as much as the law is off in the middle of it, where the robot had arrived already.
     """
-    smooth = Limits(max_speed=1.9, max_accel=1.0, max_jerk=2.84)
-    comes, stands = drive([[0, 0], [10, 0]], limits=smooth), drive([[12.002, 0], [12.002, 0.01]])
+    smooth, at = Limits(max_speed=1.9, max_accel=1.0, max_jerk=2.84), 12.0 + spare
+    comes, stands = drive([[0, 0], [10, 0]], limits=smooth), drive([[at, 0], [at, 0.01]])
     certificate = proven([comes, stands])
     assert certificate.holds
-    assert 1.0 <= certificate.separation <= sampled([comes, stands]) <= 1.0021
+    assert 1.0 <= certificate.separation <= sampled([comes, stands]) <= 1.0 + spare + 1e-4
