@@ -49,6 +49,8 @@ def guess_lines(bends: Floats, closed: bool, lines: Floats, turns: Floats, circl
     for k in range(count):
         _guess_turn(bends, closed, k, lines, turns, circles)
     for k in range(count):
+        _turn_back(bends, closed, k, lines, turns, circles)
+    for k in range(count):
         _touch_where_far(bends, closed, k, lines, turns, circles)
 
 
@@ -87,7 +89,33 @@ def guess_again(
             continue
         for i in range(k - GUESSED_ABOUT, k + GUESSED_ABOUT + 2):
             if closed or 0 <= i < count:
+                _turn_back(bends, closed, i % count, lines, turns, circles)
+    for k in range(last):
+        if not tight[k]:
+            continue
+        for i in range(k - GUESSED_ABOUT, k + GUESSED_ABOUT + 2):
+            if closed or 0 <= i < count:
                 _touch_where_far(bends, closed, i % count, lines, turns, circles)
+
+
+@uncounted
+def _turn_back(
+    bends: Floats, closed: bool, k: int, lines: Floats, turns: Floats, circles: Floats
+) -> None:
+    """Turn to the other side at a bend to no side, if it is that of the lesser turn of tangents.
+
+    From round an obstacle to a via point and back round it, middles turn by just half a turn: to
+    which side is told by rounding then, and a turn stays on the side where it is.
+    """
+    count, last = bends.shape[0], lines.shape[0]
+    is_inside = closed or 0 < k < count - 1
+    if not is_inside or bends[k, SIDE] != 0.0 or abs(turns[k]) <= SURE_TURN_RAD:
+        return
+    before = touching_line(circles, (k - 1) % last, k)
+    after = touching_line(circles, k, (k + 1) % count)
+    turn = wrapped(after - before, 0.0)
+    if turn * turns[k] < 0.0 and abs(turn) > SURE_TURN_RAD:  # not where there is no tangent
+        turns[k] += math.copysign(2.0 * math.pi, turn)
 
 
 @uncounted
