@@ -130,20 +130,21 @@ def test_there_and_back_again_swings_out_to_a_turn_of_less_than_half_a_circle():
     assert 100 < curve.length < 106
 
 
+@pytest.mark.parametrize("away", [12.0, 2.2])
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_out_from_an_obstacle_and_back_round_it_is_turned_by_the_lesser_way(side):
+def test_out_from_an_obstacle_and_back_round_it_is_turned_by_the_lesser_way(side, away):
     """Between middles it turns by just half a turn, of which rounding tells the side.
 
     Found by transformed_fleets.py (2 320): half of such rounds had a loop, the mirrored ones none.
     """
-    bends = bends_through([(30, 9), (12, 0), (0, 0), (12, 0), (30, -9)])
+    bends = bends_through([(30, 1), (away, 0), (0, 0), (away, 0), (30, -1)])
     bends[[1, 3], KEPT], bends[[1, 3], SIDE] = 2.0, -side
     bends[:, Y] *= -side
-    bends[:, RADIUS] = 1.0
+    bends[:, RADIUS] = 0.1
     left, _, turns, *_, state, _ = needed_turns(bends, False, 1.0)
     assert state == FINE
     at = left.tolist().index(2)
-    assert 0.5 * math.pi < -side * turns[at] < math.pi
+    assert -side * turns[at] == pytest.approx(math.pi - 2.0 * math.asin(2.0 / away), abs=0.1)
 
 
 @pytest.mark.parametrize("bend", [[(30, 0), (30, 1)], [(30, 0), (31, 4), (28, 4)]])

@@ -114,7 +114,7 @@ def _turn_back(
     before = touching_line(circles, (k - 1) % last, k)
     after = touching_line(circles, k, (k + 1) % count)
     turn = wrapped(after - before, 0.0)
-    if turn * turns[k] < 0.0 and abs(turn) > SURE_TURN_RAD:  # not where there is no tangent
+    if turn * turns[k] < 0.0:  # not where there is no tangent
         turns[k] += math.copysign(2.0 * math.pi, turn)
 
 
