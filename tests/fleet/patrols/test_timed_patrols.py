@@ -323,3 +323,31 @@ def test_who_finds_no_gap_between_laps_is_told_so_after_a_few_periods(
     places = np.asarray(path.at_distance(np.linspace(0.0, path.length, 4000)))
     assert np.hypot(*(places - missing.where).T).min() < 0.4 + 0.5 + 0.4 + 0.02
     assert len(laid_out) <= 4
+
+
+def test_who_has_to_let_a_patrol_pass_twice_sets_out_in_a_later_gap_between_its_laps() -> None:
+    """Its way is one crossing with that of the patrol, and another one passes its goal first.
+
+    Found by transformed_fleets.py (2 320): it waited until all laps were over, and was given up.
+    """
+    posts = [([7.56, 19.9], 1.01), ([8.58, 9.35], 1.29), ([11.45, 12.01], 0.87)]
+    slow = {"radius_m": 0.6, "clearance_m": 0.1, "max_speed_mps": 0.6, "max_accel_mps2": 0.3}
+    stops = [{"at": at, "dwell_s": 4.0} for at in ([6.16, 16.68], [12.63, 23.97])]
+    round_trip = patrol([20.46, 18.79], [9.8, 22.16], [1.7, 20.14])
+    fleet = Fleet.model_validate(
+        {
+            "separation_m": 1.0,
+            "world": {"known": [{"circle": {"center": at, "radius": r}} for at, r in posts]},
+            "robots": {"slow": slow},
+            "fleet": [
+                {"name": "r0", "rest": "leave", "priority": 1,
+                 "route": {"start": [23.61, 1.01], "via": stops, "goal": [21.78, 0.43]}},
+                {"name": "r1", "rest": "leave", "priority": 5, **round_trip},
+                {"name": "r3", "priority": 3, "depart_s": 20,
+                 "route": {"start": [18.34, 19.91], "goal": [6.29, 15.1]}},
+            ],
+        }
+    )  # fmt: skip
+    plan = plan_fleet(fleet)
+    assert plan.served
+    assert nearest(plan) >= 1.0 - 1e-6

@@ -5,8 +5,8 @@ lets that one pass: it is slowed down so that it comes to the crossing when the 
 if it can with a running start, so that no more is lost than has to be. Where it would be in another
 one's way while it waits, it waits elsewhere, or lets that one pass as well. Each crossing is given
 way to at most once, so this comes to an end. If it has to be given way to once more, a robot that
-is patient waits at home until all have arrived: where neither a start nor a resting place of a
-robot lies in a crossing, that is always left.
+is patient waits at home until nobody is in its way, at most until all have arrived: where neither a
+start nor a resting place of a robot lies in a crossing, that is always left.
 """
 
 from __future__ import annotations
@@ -236,7 +236,7 @@ def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
 def patient_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
     """As ``yielding_ride``, but where it would have to let one pass twice, it waits at home.
 
-    Until all that ever arrive have arrived.
+    Until nobody is in its way as it drives alone; at most until all that ever arrive have arrived.
     """
     ride, box, again = _ridden(scene, robot)
     if not again:
@@ -250,8 +250,19 @@ def patient_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
     ride_alone(ride, scene.rides)
     if ride.square[0] > 0.0:
         return ride, box  # it is under way
-    cut_notch(ride, courses, scene.rides, 0, 0.0, max(0.0, over + TIME_SLACK_S - ride.leave[0]))
     blocks = blocks_of(courses, scene.passages, laws, robot)
+    waits, most = 0.0, max(0.0, over + TIME_SLACK_S - ride.leave[0])
+    for _ in range(blocks.since.size + 1):  # whom it has let pass once, it has let pass
+        met, passage = _blocking(scene, ride, blocks, ride.square.size)
+        if met == CLEAR:
+            return ride, CLEAR
+        waits += _lateness(scene, ride, blocks, passage)[1] + TIME_SLACK_S
+        if not waits < most:
+            break
+        ride_alone(ride, scene.rides)
+        cut_notch(ride, courses, scene.rides, 0, 0.0, waits)
+    ride_alone(ride, scene.rides)
+    cut_notch(ride, courses, scene.rides, 0, 0.0, most)
     met, _ = _blocking(scene, ride, blocks, ride.square.size)
     return ride, CLEAR if met == CLEAR else box
 
