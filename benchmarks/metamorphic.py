@@ -81,13 +81,9 @@ class AskedOfAll(Asked):
 
     @cached_property
     def edges(self) -> list[Any]:
-        world = self.data["world"]
-        rings = [shapely.Polygon(ring).exterior for ring in world.get("fences", ())]
-        if "bounds" in world:
-            rings.append(shapely.box(*world["bounds"]).exterior)
-        rings += [self._placed(shapely.box(0, 0, *(one.resolution * np.array(
+        of_maps = [self._placed(shapely.box(0, 0, *(one.resolution * np.array(
             one.blocked.shape[::-1]))), one).exterior for one in self.grids]  # fmt: skip
-        return rings
+        return [*Asked.edges.func(self), *of_maps]
 
     @property
     def grids(self) -> list[vs.Grid]:

@@ -109,9 +109,8 @@ class FleetPlan(ShownValue, MovingValue, SavedValue, ComparedByValue):
     @property
     def is_spatial(self) -> bool:
         """Whether its robots fly: all of them, or none."""
-        for plan in self.plans.values():
-            return isinstance(plan, SpatialPlan)
-        return self.fleet.is_spatial
+        first = next(iter(self.plans.values()), None)
+        return self.fleet.is_spatial if first is None else isinstance(first, SpatialPlan)
 
     @property
     def planar_plans(self) -> dict[str, Plan]:
