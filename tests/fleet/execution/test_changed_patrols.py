@@ -96,11 +96,14 @@ def goes_on(drive: PatrolDrive, names: tuple[str, ...] = ("r0", "r1")) -> bool:
     return min(laps) > 3.0 and drive.least >= drive.separation - 1e-6
 
 
-@pytest.mark.parametrize("since", [3.0, 88.0])  # between, none has time before a period is over
-def test_a_robot_joins_patrols_and_they_go_on(since: float) -> None:
+@pytest.mark.parametrize("since", [3.0, 150.0, 230.0])
+def test_a_robot_that_asks_for_a_period_joins_patrols_and_they_go_on(since: float) -> None:
     drive = PatrolDrive(planned())
-    drive.until(since)
-    drive.nav = drive.nav.with_robot(member("new", CROSSES))
+    for later in np.arange(0.0, planned().patrols.period, 2.0):  # type: ignore[union-attr]
+        drive.until(since + later)
+        with suppress(GaveUpError):
+            drive.nav = drive.nav.with_robot(member("new", CROSSES))
+            break
     assert goes_on(drive)
     assert drive.come["new"] == pytest.approx(drive.nav.paths["new"].path.length)
 

@@ -13,7 +13,7 @@ from viaspline.errors import GaveUpError
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.grown_fleet import GrownFleet
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
@@ -43,8 +43,8 @@ def joined_fleet(grown: GrownFleet, let_in: LetIn) -> GrownFleet:
     """A fleet whose robot with a new path is timed along it.
 
     It is timed among the others, none of whose laws changes, and so that it passes nobody before
-    one who was let in already. Among patrols that never end it arrives before the last period of
-    their laps that are laid out begins: what comes after that comes again.
+    one who was let in already. Among patrols that never end it is out of their way before the last
+    period of their laps that are laid out begins there: what comes after that comes again.
 
     Args:
         grown: With the path, and with laws of those that it crosses, and of patrols: when they are
@@ -74,25 +74,40 @@ def joined_fleet(grown: GrownFleet, let_in: LetIn) -> GrownFleet:
                 raise _in_the_way(fleet, robot, int(others[k]), float(own[k, 0]))
             wait = max(wait, late)
         if wait <= 0.0:
-            _check_rounds(timed, robot)
+            _check_rounds(timed, robot, others, own, theirs)
             return replace(grown, fleet=timed)
         depart += wait
     raise _in_the_way(fleet, robot, int(others[inside[0]]), float(own[inside[0], 0]))
 
 
-def _check_rounds(fleet: DrivenFleet, robot: int) -> None:
-    """Refuse a robot that arrives when the last period of a patrol has begun.
+def _check_rounds(
+    fleet: DrivenFleet, robot: int, others: Ints, own: Floats, theirs: Floats
+) -> None:
+    """Refuse a robot that isn't out of a patrol's way when its last period begins there.
 
-    All that comes after what is laid out has the order of that period, and then it stands already.
+    All that comes after what is laid out has the order of that period, and then it has passed
+    already. Nor may it arrive after that: patrols go on when all others have arrived.
+
+    Args:
+        fleet: With its law.
+        robot: Its number.
+        others: Whom it crosses, (k,).
+        own: From where to where along its path [m], (k, 2).
+        theirs: The same along theirs.
     """
     if fleet.rounds is None:
         return
     last = int(fleet.courses.packed.first[robot + 1]) - 1
     arrives = float(fleet.laws.packed.arrive[last] + fleet.rides.stays[last])
-    begins = fleet.lengths - fleet.rounds
-    for patrol in np.flatnonzero((fleet.rounds > 0.0) & fleet.laws.packed.is_timed).tolist():
-        if arrives > _comes(fleet, patrol, float(begins[patrol])):
+    endless = (fleet.rounds > 0.0) & fleet.laws.packed.is_timed
+    for patrol in np.flatnonzero(endless).tolist():
+        if arrives > _comes(fleet, patrol, float(fleet.lengths[patrol])):
             raise _in_the_way(fleet, robot, patrol, float(fleet.lengths[robot]))
+    begins = fleet.lengths - fleet.rounds
+    for k in np.flatnonzero(endless[others] & (theirs[:, 1] > begins[others])).tolist():
+        patrol, meets = int(others[k]), max(float(theirs[k, 0]), float(begins[others[k]]))
+        if _goes(fleet, robot, float(own[k, 1])) > _comes(fleet, patrol, meets):
+            raise _in_the_way(fleet, robot, patrol, float(own[k, 0]))
 
 
 def _in_the_way(grown: DrivenFleet, robot: int, other: int, place: float) -> GaveUpError:
