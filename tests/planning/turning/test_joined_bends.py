@@ -41,7 +41,9 @@ def wishes(turns: tuple[float, ...], gaps: tuple[float, ...]) -> TurnWishes:
     """Of turns between a start and a goal, with as much to spend as they can use."""
     angles, ways = np.array([0.0, *turns, 0.0]), np.array(gaps)
     lengths = gentle_lengths(angles, 2.0 * ways, False, 10.0)
-    return TurnWishes(angles, ways, lengths, np.full(len(angles), 4.0), spent=10.0)
+    return TurnWishes(
+        angles, ways, lengths, np.full(len(angles), 4.0), 10.0, np.full(len(angles), 4.0)
+    )
 
 
 def row(places: list[tuple[float, float]], side: float = 1.0) -> Bends:
@@ -142,7 +144,7 @@ def test_joins_of_closed_rows_of_any_length_are_in_order(seed: int, count: int) 
     vias = np.where(np.arange(count) == 0, 0, DETOUR)
     bends = Bends(rows, vias, np.full(count, math.inf), closed=True)
     lengths = gentle_lengths(turns, 2.0 * gaps, True, 5.0)
-    asked = TurnWishes(turns, gaps, lengths, np.full(count, 4.0), spent=5.0)
+    asked = TurnWishes(turns, gaps, lengths, np.full(count, 4.0), 5.0, np.full(count, 4.0))
     joins = joins_worth_it(bends, asked, 1.0)
     ends = [k for join in joins for k in (join.first, join.last)]
     assert ends == sorted(set(ends))

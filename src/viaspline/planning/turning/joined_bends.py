@@ -51,6 +51,7 @@ class TurnWishes:
         lengths: [m], (n,).
         fast: The radius with which each is passed soonest [m], (n,).
         spent: By how much the path may be longer than its corners [m].
+        widest: Than which radius none is faster at each [m], (n,).
     """
 
     turns: Floats
@@ -58,6 +59,7 @@ class TurnWishes:
     lengths: Floats
     fast: Floats
     spent: float
+    widest: Floats
 
 
 def joins_worth_it(bends: Bends, wishes: TurnWishes, room_share: float) -> tuple[Join, ...]:

@@ -167,18 +167,13 @@ class WideTurns:
         The part is over that of the fastest turns, so that it is as much of the time.
         """
         angles, gaps = np.abs(narrowest.turns), _gaps(narrowest)
-        fast = self.pace.corner_radii(
-            angles, narrowest.bends.rows[:, KEPT], self._speeds(narrowest)
-        )
+        speeds = self.pace.speeds_at(narrowest.lines_and_turns[2])
+        fast = self.pace.corner_radii(angles, narrowest.bends.rows[:, KEPT], speeds)
         arcs = float((fast * np.minimum(angles, 1.0) ** 3).sum()) / ARC_LONGER
         spent = GENTLE_SHARE * float(gaps.sum()) + arcs
         rooms = 2.0 * GENTLE_ROOM * gaps
         lengths = gentle_lengths(angles, rooms, narrowest.bends.closed, spent)
-        return TurnWishes(angles, gaps, lengths, fast, spent)
-
-    def _speeds(self, narrowest: SettledTurns) -> Floats:
-        """The greatest speed in each turn [m/s], (n,)."""
-        return self.pace.speeds_at(narrowest.lines_and_turns[2])
+        return TurnWishes(angles, gaps, lengths, fast, spent, self.pace.widest_radii(speeds))
 
     def _wished(self, bends: Bends, narrowest: SettledTurns, wishes: TurnWishes) -> Floats:
         """The radius that each turn should have [m], (n,).
@@ -196,8 +191,7 @@ class WideTurns:
         ramps = np.maximum(lengths - kept * angles, 0.0)  # beside an arc round what is kept
         wide = np.where(gentle < kept * angles, ramps, wide)
         spent = GENTLE_SHARE * float(wishes.gaps.sum())
-        widest = self.pace.widest_radii(self._speeds(narrowest))
-        usual = np.maximum(np.minimum(widest, self.roomy), self.own)
+        usual = np.maximum(np.minimum(wishes.widest, self.roomy), self.own)
         soonest = np.maximum(wishes.fast, usual)
         radii[rows] = np.minimum(radii[rows], affordable_radii(angles, radii[rows], soonest, spent))
         radii[rows] = np.maximum(radii[rows], wide)
