@@ -21,8 +21,9 @@ from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.spacetime.body_past_moving import certify_body
 from viaspline.spacetime.timed_drive import TimedDrive
-from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
+from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.world.moving_obstacles import MovingObstacles
 
 ENDLESS = (
@@ -66,11 +67,10 @@ def moving_proof(fleet: Fleet, plan: Plan) -> MovingCertificate:
         plan: With its law by the clock of the fleet.
     """
     requirements = Requirements.of(plan.mission, plan.tracking_error)
-    return certify_moving(
-        plan.path, plan.trajectory, MovingObstacles(fleet.world.moving), requirements.kept,
-        radius=requirements.disc_radius, footprint=requirements.footprint,
-        heading=plan.mission.robot.held_heading, hold=plan.mission.route.hold_s,
-    )  # fmt: skip
+    moving, mission = MovingObstacles(fleet.world.moving), plan.mission
+    return certify_body(
+        requirements, mission.robot, plan.path, plan.trajectory, moving, hold=mission.route.hold_s
+    )
 
 
 def proven_among(fleet: Fleet, plan: Plan) -> Plan:

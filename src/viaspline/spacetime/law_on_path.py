@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeAlias
+
 from viaspline.curve.path import Path
-from viaspline.planning.problem.method import Found, GaveUp, Outcome
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.spacetime.alternatives import Alternative
+from viaspline.spacetime.body_past_moving import certify_body
 from viaspline.spacetime.timed_problem import TimedProblem
-from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
+from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_among import BUDGET_S, law_among
 from viaspline.trajectory.yielding.no_law import Unserved
+
+Explained: TypeAlias = Callable[[Unserved], Refusal | GaveUp]
+"""What is said where there is no law."""
 
 WORTH_S = 1.0
 """What has to be lost by waiting before it is looked for bays to wait in, and for drives [s]."""
@@ -29,7 +36,7 @@ def law_on_path(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory
     late = taken.free.end_time + WORTH_S
     with problem.budget.share(BUDGET_S) as budget:
         outcome = _law_keeping(problem, taken, budget, problem.required)
-        for required in problem.smaller:
+        for required in problem.requirements.within_around:
             if isinstance(outcome, Found) and outcome.value.end_time <= late:
                 return outcome
             other = _law_keeping(problem, taken, budget, required)
@@ -57,15 +64,25 @@ def _law_keeping(
 
     It goes no faster than at some speed [m/s], if that is said.
     """
-    route, path = problem.mission.route, taken.solution.path
+    route = problem.mission.route
     is_one_of_many = problem.outer is not None and bool(taken.passings or taken.is_searched)
     is_first = required == problem.required and speed is None
     problem.budget.spent += problem.law_s(taken.free)
+    return _law(
+        problem, taken.solution.path, required, route.depart_s, budget, speed,
+        Unserved.outcome if is_first and not is_one_of_many else _unexplained,
+    )  # fmt: skip
+
+
+def _law(
+    problem: TimedProblem, path: Path, required: float, depart: float,
+    budget: WorkBudget | None, speed: float | None, explained: Explained,
+) -> Outcome[Trajectory]:  # fmt: skip
+    """See ``law_among``."""
     return law_among(
-        path, problem.limits, problem.stops(path), moving=problem.moving,
-        required=required, zones=problem.mission.world.speed_zones,
-        start_time=route.depart_s, hold=route.hold_s, speed_cap=speed, budget=budget,
-        explained=Unserved.outcome if is_first and not is_one_of_many else _unexplained,
+        path, problem.limits, problem.stops(path), moving=problem.moving, required=required,
+        zones=problem.mission.world.speed_zones, start_time=depart,
+        hold=problem.mission.route.hold_s, speed_cap=speed, budget=budget, explained=explained,
     )  # fmt: skip
 
 
@@ -79,24 +96,17 @@ def _unexplained(_: Unserved) -> GaveUp:
 
 def moving_proof(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCertificate:
     """What is proven of a path and a law on it: the distance to all that moves."""
-    requirements = problem.requirements
-    return certify_moving(
-        path, law, problem.moving, requirements.kept, radius=requirements.disc_radius,
-        footprint=requirements.footprint, heading=problem.mission.robot.held_heading,
-        hold=problem.mission.route.hold_s,
-    )  # fmt: skip
+    mission = problem.mission
+    return certify_body(
+        problem.requirements, mission.robot, path, law, problem.moving, hold=mission.route.hold_s
+    )
 
 
 def departure_that_serves(problem: TimedProblem, path: Path) -> str | None:
     """When to depart instead, on the path among what stands, if one of some later times serves."""
-    route = problem.mission.route
     for later in LATER_S:
-        depart = route.depart_s + later
-        outcome = law_among(
-            path, problem.limits, problem.stops(path), moving=problem.moving,
-            required=problem.required, zones=problem.mission.world.speed_zones,
-            start_time=depart, hold=route.hold_s, explained=_unexplained,
-        )  # fmt: skip
+        depart = problem.mission.route.depart_s + later
+        outcome = _law(problem, path, problem.required, depart, None, None, _unexplained)
         if isinstance(outcome, Found) and moving_proof(problem, path, outcome.value).holds:
             return f"depart {later:g} s later (route.depart_s: {depart:g})"
     return None

@@ -98,12 +98,6 @@ class TimedProblem:
         return self.requirements.around
 
     @property
-    def smaller(self) -> tuple[float, ...]:
-        """Less than that, for a body that is no disc: the least first, and halfway to it [m]."""
-        between = 0.5 * (self.least + self.required)
-        return (self.least, between) if self.requirements.footprint is not None else ()
-
-    @property
     def lower_speeds(self) -> tuple[float, ...]:
         """Speeds at which a law is tried that waits at stops alone [m/s]; none for others."""
         waits_at_stops = self.limits.max_jerk is not None or is_coupled(self.limits, 2)

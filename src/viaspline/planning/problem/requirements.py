@@ -211,6 +211,13 @@ class Requirements(ComparedByValue):
         """Distance that the path keeps if the body is taken for the disc around it [m]."""
         return self.outer_radius + self.kept
 
+    @property
+    def within_around(self) -> tuple[float, ...]:
+        """Less than that, for a body that is no disc: the least first, and halfway to it [m]."""
+        if self.footprint is None:
+            return ()
+        return (self.required, 0.5 * (self.required + self.around))
+
     def reduced_to(self, distance: float) -> Requirements:
         """These where the path keeps another distance from every obstacle [m]."""
         return replace(self, clearance=distance - self.radius - self.tracking_error)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from viaspline.curve.path import Path
 from viaspline.robot.navigation.drive_task import DriveTask
-from viaspline.trajectory.moving_certificate import certify_moving
+from viaspline.spacetime.body_past_moving import certify_body
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -29,7 +29,5 @@ def body_keeps_clear(
     needs = task.requirements
     if needs.footprint is None:
         return False
-    return certify_moving(
-        path, law, moving, needs.kept + task.apart, footprint=needs.footprint,
-        heading=task.mission.robot.held_heading, hold=hold,
-    ).holds  # fmt: skip
+    robot = task.mission.robot
+    return certify_body(needs, robot, path, law, moving, hold=hold, apart=task.apart).holds

@@ -42,11 +42,8 @@ class DriveTask:
 
     @property
     def kept_by_body(self) -> tuple[float, ...]:
-        """Less than that, for a body that is no disc: its least, and halfway to it [m]."""
-        if self.requirements.footprint is None:
-            return ()
-        least = self.requirements.required + self.apart
-        return (least, 0.5 * (least + self.kept_to_moving))
+        """Less than that, for a body that is no disc [m]."""
+        return tuple(distance + self.apart for distance in self.requirements.within_around)
 
     @property
     def spot_turning(self) -> SpotTurning:
