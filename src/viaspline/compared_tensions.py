@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from viaspline.driven_plan import driven_plan
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.machine.measure_drivability import least_radius
@@ -23,7 +24,7 @@ from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.span_tensions import SpanTensions
-from viaspline.whole_plan import Plan, whole_plan
+from viaspline.whole_plan import Plan
 from viaspline.world.world import World
 
 TRIED_TENSIONS = (-0.5, -0.3, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)
@@ -167,7 +168,7 @@ def _planned(
     mission: Mission, world: World, tension: Tension, spending: WorkBudget | None = None
 ) -> TensionTrial:
     try:
-        return TensionTrial(tension, whole_plan(mission, world, spending))
+        return TensionTrial(tension, driven_plan(mission, world, spending))
     except (PlanningError, GeometryError) as error:
         return TensionTrial(tension, None, error)
 

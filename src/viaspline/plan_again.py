@@ -8,11 +8,12 @@ Tested through ``fleet/laying/test_relay``.
 
 from __future__ import annotations
 
+from viaspline.driven_plan import as_driven, driven_plan
 from viaspline.errors import GaveUpError, GeometryError, PlanningError
 from viaspline.machine.robot_model import is_driven
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.work_budget import WorkBudget
-from viaspline.whole_plan import Plan, as_driven, whole_plan, with_error
+from viaspline.whole_plan import Plan, with_error
 from viaspline.world.world import World
 
 
@@ -41,4 +42,4 @@ def plan_again(before: Plan, mission: Mission, world: World, spending: WorkBudge
         if isinstance(error, GaveUpError) and robot == mission.robot:
             raise  # whatever it keeps, it would be sought the same way once more
         numbers = mission.model_copy(update={"spline": spline})
-        return whole_plan(numbers, world, spending)
+        return driven_plan(numbers, world, spending)

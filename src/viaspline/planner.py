@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from viaspline.compared_tensions import advised_plan
+from viaspline.driven_plan import driven_plan
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.work_budget import WorkBudget
-from viaspline.whole_plan import Plan, in_order, whole_plan
+from viaspline.whole_plan import Plan, in_order
 from viaspline.world.world import World
 
 __all__ = ["Plan", "plan", "plan_in"]
@@ -60,4 +61,4 @@ def plan_in(mission: Mission, world: World, spending: WorkBudget | None = None) 
     """
     if mission.spline.tension == "auto":
         return advised_plan(mission, world)
-    return whole_plan(mission, world, spending)
+    return driven_plan(mission, world, spending)

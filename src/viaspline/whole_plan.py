@@ -6,20 +6,16 @@ Tested through ``test_planner``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 from viaspline.curve.certificate import PROOF_SLACK_M, Certificate
 from viaspline.curve.path import Path
-from viaspline.errors import GeometryError, PlanningError
-from viaspline.machine.allowance import TrialDrives, allowance_on_bends, tracking_remedy
+from viaspline.errors import PlanningError
+from viaspline.machine.allowance import TrialDrives
 from viaspline.machine.drivability import Drivability
-from viaspline.machine.eased_turns import eased_turns
-from viaspline.machine.error_between import planned_between
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.measure_drivability import drivability_of
-from viaspline.machine.robot_model import is_driven
 from viaspline.machine.turns_on_spot import SpotTurning, with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
@@ -46,16 +42,6 @@ from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
-
-MAX_TRIAL_ROUNDS = 6
-"""Rounds of planning and trial drives."""
-
-ALLOWANCE_GROWTH = 1.1
-"""By which an allowance grows that was measured once already."""
-
-HARDLY_LONGER, MAX_LONGER = 1.05, 1.25
-"""A drive that leaves so much is taken at once where it takes no more than so many times as long as
-one that keeps nothing for its tracking error; or than one that keeps what it asks for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,29 +129,6 @@ class Plan(ShownValue, SavedValue, ComparedByValue):
         return TrialDrives(self.path, self.trajectory, self.mission.robot)
 
 
-def whole_plan(mission: Mission, world: World, spending: WorkBudget | None = None) -> Plan:
-    """Plan a mission that says how taut its spline is, or doesn't; ``auto`` is not among that.
-
-    Args:
-        mission: Its via points in the order in which they are served.
-        world: What it has on its map.
-        spending: What all paths past what moves may spend together; None: each as much as usual.
-
-    Raises:
-        NoPathError: When there is no path, with the reason and the least change that would serve.
-        GaveUpError: When a budget ran out before that was known, with what was tried.
-        GeometryError: When the mission's numbers contradict each other, or the robot can't follow.
-    """
-    robot = mission.robot
-    error = robot.tracking_error_m or 0.0
-    if robot.tracking_error_m is None and robot.sensor is not None and is_driven(robot):
-        error = allowance_on_bends(robot, Requirements.of(mission).required)
-    first = with_error(mission, world, error, spending)
-    if robot.tracking_error_m is not None or not is_driven(robot):
-        return first
-    return _with_steering_left(first, error, spending)
-
-
 def in_order(mission: Mission) -> tuple[Mission, World]:
     """The mission with its via points in the order in which they are served, and its known world.
 
@@ -179,80 +142,21 @@ def in_order(mission: Mission) -> tuple[Mission, World]:
     return served, world
 
 
-def _with_steering_left(first: Plan, error: float, spending: WorkBudget | None) -> Plan:
-    """The plan as driven whose path leaves steering to correct with, where that doesn't cost much.
-
-    Args:
-        first: A plan as the robot could drive it, that keeps ``error`` [m].
-        error: With which others begin.
-        spending: As for ``whole_plan``.
-
-    Raises:
-        PlanningError, GeometryError: What the first ends in, where no other plan is found.
-    """
-    roomy = []
-    mission, robot = first.mission, first.mission.robot
-    for radius, kept in eased_turns(first._trials):
-        eased = robot.model_copy(update={"min_turn_radius_m": radius})
-        wider = mission.model_copy(update={"robot": eased})
-        with suppress(PlanningError, GeometryError):
-            eased_first = with_error(wider, first.world, max(kept, error), spending)
-            roomy.append(as_driven(eased_first, spending))
-            if _is_as_soon(roomy[-1], first, HARDLY_LONGER):
-                return roomy[-1]
-    try:
-        tight = as_driven(first, spending)
-    except (PlanningError, GeometryError):
-        if not roomy:
-            raise
-        return min(roomy, key=lambda plan: plan.trajectory.duration)
-    return next((plan for plan in roomy if _is_as_soon(plan, tight, MAX_LONGER)), tight)
-
-
-def as_driven(first: Plan, spending: WorkBudget | None = None) -> Plan:
-    """The plan that keeps as much beyond the clearance as the robot gets beside it.
-
-    Args:
-        first: A plan, whatever it keeps.
-        spending: As for ``whole_plan``.
-    """
-    result = first
-    for _ in range(MAX_TRIAL_ROUNDS):
-        needed = result._trials.allowance
-        if needed <= result.tracking_error:
-            return result
-        error = ALLOWANCE_GROWTH * max(needed, result.tracking_error)
-        plan_with = partial(with_error, first.mission, first.world, spending=spending)
-        try:
-            result = plan_with(error)
-        except PlanningError:
-            less = planned_between(
-                result.tracking_error, error, plan_with, lambda plan: plan._trials.allowance
-            )
-            if less is None:
-                raise
-            return less
-    raise GeometryError(
-        f"the robot gets ever farther beside its path, {result.tracking_error:.2f} m in the last "
-        f"trial drive; give it {tracking_remedy(result.mission.robot)}"
-    )
-
-
-def _is_as_soon(plan: Plan, other: Plan, longer: float) -> bool:
-    """Whether a plan takes at most so many times as long as another."""
-    return plan.trajectory.duration <= longer * other.trajectory.duration
-
-
 def with_error(
     mission: Mission, world: World, error: float, spending: WorkBudget | None = None
 ) -> Plan:
     """The plan that keeps ``error`` [m] more than the clearance, however far the robot gets beside.
 
     Args:
-        mission: As for ``whole_plan``.
-        world: As for ``whole_plan``.
+        mission: Its via points in the order in which they are served.
+        world: What it has on its map.
         error: What it keeps beyond the clearance [m].
-        spending: As for ``whole_plan``.
+        spending: What all paths past what moves may spend together; None: each as much as usual.
+
+    Raises:
+        NoPathError: When there is no path that keeps it, with the least change that would serve.
+        GaveUpError: When a budget ran out before that was known, with what was tried.
+        GeometryError: When the mission's numbers contradict each other.
     """
     requirements = Requirements.of(mission, error)
     try:

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.curve.path import Path
+from viaspline.driven_plan import driven_plan
 from viaspline.errors import GeometryError, NoPathError
 from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
@@ -27,7 +28,7 @@ from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import EndPoint, Route, ViaPoint
 from viaspline.planner import Plan
-from viaspline.whole_plan import in_order, whole_plan
+from viaspline.whole_plan import in_order
 
 SAME_M = 1e-3
 """Via points so little ahead are behind."""
@@ -223,7 +224,7 @@ def laid_from_rest(
         GeometryError: The robot can't follow it.
     """
     mission, world = in_order(member.mission)
-    alone = whole_plan(mission, world)
+    alone = driven_plan(mission, world)
     reach = mission.robot.outer_radius + alone.tracking_error + 0.5 * separation
     among = _with_room_at(rests, mission.route.start.at[:2], reach, out)
     laid = lay_among_rests(alone, mission, member.name, reach, among)
