@@ -89,7 +89,7 @@ def test_the_way_the_stay_and_the_radius_stand_in_the_items(tmp_path: Path) -> N
 
 def test_speeds_change_before_the_line_that_they_are_for(tmp_path: Path) -> None:
     asked = {
-        "world": {"speed_zones": [{"polygon": [[30, -9], [60, -9], [60, 9], [30, 9]],
+        "world": {"speed_zones": [{"polygon": [[30, -90], [60, -90], [60, 90], [30, 90]],
                                    "max_speed_mps": 0.5}]},
         "route": {"start": [0, 0], "goal": [90, 0]},
     }  # fmt: skip

@@ -166,7 +166,7 @@ def test_a_plan_and_a_drive_keep_to_the_zones_of_their_mission() -> None:
     mission = Mission.model_validate({
         "world": {
             "unseen": [{"circle": {"center": [40, 0.5], "radius": 2}}],
-            "speed_zones": [{"polygon": [[30, -9], [50, -9], [50, 9], [30, 9]],
+            "speed_zones": [{"polygon": [[30, -90], [50, -90], [50, 90], [30, 90]],
                              "max_speed_mps": 0.5}],
         },
         "robot": {"sensor": {"range_m": 20}, "max_brake_mps2": 2},

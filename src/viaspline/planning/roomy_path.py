@@ -19,7 +19,8 @@ from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.checking.driving_time import driving_time
 from viaspline.planning.methods.ordered import roomy_methods_for
-from viaspline.planning.plan_path import find_path, lay_path
+from viaspline.planning.past_zones import find_path_past_zones
+from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.preferred_clearance import PreferredClearance, TriedClearance
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
@@ -42,13 +43,13 @@ def find_roomy_path(sequence: ViaSequence, world: World, requirements: Requireme
         NoPathError: When there is none that keeps what is required.
         GaveUpError: When a budget ran out before that was known.
     """
-    found = find_path(sequence, world, requirements)
+    found = find_path_past_zones(sequence, world, requirements)
     if requirements.preferred <= 0.0 or not len(world) or not isinstance(found.account, Account):
         return found
     duration = _duration(found.account.spline_path, sequence, requirements)
     most = duration + min(MOST_LATER * duration, MOST_LATER_S)
     tried: list[TriedClearance] = []
-    for more in _roomier(sequence, world, requirements):
+    for more in _roomier(sequence, found.account.world, requirements):
         roomy = _laid(sequence, more, world, requirements)
         if roomy is None:
             tried.append(TriedClearance(more.clearance, None, taken=False))

@@ -17,13 +17,27 @@ from viaspline.planning.alternatives.kept_account import KeptAccount
 from viaspline.planning.alternatives.leg_search import Curve
 from viaspline.planning.alternatives.passed_leg import PassedLeg
 from viaspline.planning.checking.conflicts import proven
-from viaspline.planning.checking.cost import measure
+from viaspline.planning.checking.cost import measure, measure_body
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.presentable.told_in_lines import told_in_lines
 from viaspline.world.world import World
+
+
+@told_in_lines
+@dataclass(frozen=True)
+class ThroughZones:
+    """A path through speed zones that another one leaves out.
+
+    Attributes:
+        names: What the zones are called where they stand as obstacles.
+        spline_path: The path.
+    """
+
+    names: frozenset[str]
+    spline_path: SplinePath
 
 
 @told_in_lines
@@ -43,6 +57,7 @@ class Account:
             turning circle drives, beside what was laid; None for others.
         measured_in: The world as it is, where the path was laid among grown obstacles.
         preferred: What more clearance was weighed; None where none is asked for.
+        through: What was laid through zones that the path leaves out; None where it leaves none.
     """
 
     spline_path: SplinePath
@@ -52,6 +67,7 @@ class Account:
     driven: Callable[[Comparison, SplinePath], Comparison] | None = None
     measured_in: World | None = None
     preferred: PreferredClearance | None = None
+    through: ThroughZones | None = None
 
     @property
     def kept(self) -> Account | KeptAccount:
@@ -79,7 +95,11 @@ class Account:
     @property
     def _entries(self) -> tuple[LedgerEntry, ...]:
         compared = (self._as_laid(leg) for leg in sorted(self.passed))
-        entries = (entry for comparison in compared for entry in comparison.entries)
+        entries = (
+            entry if self.through is None else self._with_through(entry, comparison, self.through)
+            for comparison in compared
+            for entry in comparison.entries
+        )
         if self.measured_in is None:
             return tuple(entries)
         return tuple(
@@ -89,6 +109,24 @@ class Account:
             )
             for entry in entries
         )
+
+    def _with_through(
+        self, entry: LedgerEntry, comparison: Comparison, through: ThroughZones
+    ) -> LedgerEntry:
+        """An entry with the way through the zones in it, if there are any."""
+        taken = entry.chosen
+        if through.names.isdisjoint(entry.members) or taken is None:
+            return entry
+        leg, laid = comparison.leg, through.spline_path
+        spans, world = laid.leg(leg.index), self.measured_in or self.world
+        cost = measure_body(spans, world, self.requirements, leg.stands)
+        is_sooner = taken.duration is not None and cost.duration < taken.duration
+        candidate = Candidate(
+            "through", laid.detours(leg.index), spans, cost.length, cost.duration, cost.clearance,
+            cost.max_curvature,
+            passed_over="the whole path is no sooner with it" if is_sooner else None,
+        )  # fmt: skip
+        return replace(entry, candidates=(*entry.candidates, candidate))
 
     def _measured(self, candidate: Candidate, world: World) -> Candidate:
         """A candidate with its clearance in the world as it is."""

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.told_in_lines import told_in_lines
 
-PassingSide = Literal["left", "right", "over", "under", "straight"]
+PassingSide = Literal["left", "right", "over", "under", "straight", "through"]
 """On which side of a thing a way goes past it, seen along the leg; straight where it only keeps
-closer to the line than the spline does."""
+closer to the line than the spline does, through where it is a zone that may be driven through."""
 
 
 @told_in_lines
