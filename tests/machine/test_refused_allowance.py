@@ -58,7 +58,7 @@ def test_no_way_is_told_of_doors_alone_that_are_too_narrow_whatever_is_kept(
     if fits < -0.002:
         assert told == "no path"
     elif fits > 0.01:
-        assert told != "no path"
+        assert told == "planned" or "for how far the robot gets beside" in told
 
 
 def outcome(mission: vs.Mission) -> str:
@@ -68,8 +68,7 @@ def outcome(mission: vs.Mission) -> str:
     except vs.NoPathError:
         return "no path"
     except vs.GaveUpError as gave_up:
-        assert "for how far the robot gets beside" in str(gave_up.tried)
-        return "gave up"
+        return f"gave up: {gave_up.tried}"
     assert plan.certificate.holds
     return "planned"
 

@@ -88,7 +88,7 @@ def test_a_zone_that_costs_less_than_the_way_round_is_driven_through() -> None:
     assert plan.ledger == ()
 
 
-@pytest.mark.parametrize("inside", ([50, 0], [41, 5.9]))
+@pytest.mark.parametrize("inside", [[50, 0], [41, 5.9]])
 def test_a_zone_with_a_via_point_in_it_is_driven_through(inside: list[float]) -> None:
     plan = vs.plan(crossing([zone(LAB, 0.5)], via=[inside]))
     assert metres_inside(plan, LAB) > 1.0

@@ -126,23 +126,33 @@ class Bends:
         So it is with corners of cells along a wall. A detour is between two others to its own side,
         of a row that is open; the one that lies least off its line goes first.
         """
-        left = list(range(len(self.rows)))
-        while True:
-            offs = {k: self._off_line(*left[k - 1 : k + 2]) for k in range(2, len(left) - 2)}
-            least = min(offs, key=lambda k: offs[k], default=0)
-            if not offs or offs[least] > off:
-                return self.only(np.array(left))
-            del left[least]
+        left = np.arange(len(self.rows))
+        while len(left) > 4:
+            offs = self._off_lines(left[1:-1])
+            least = int(offs.argmin())
+            if offs[least] > off:
+                break
+            left = np.delete(left, least + 2)
+        return self.only(left)
 
-    def _off_line(self, before: int, row: int, after: int) -> float:
-        """How far bend ``row`` lies off the line of two others [m]; infinite for one that stays."""
-        rows = self.rows[[before, row, after]]
-        is_detour = (self.vias[[before, row, after]] == DETOUR).all()
-        way, own = rows[2, :2] - rows[0, :2], rows[1, :2] - rows[0, :2]
-        length = math.hypot(*way)
-        if not is_detour or np.ptp(rows[:, SIDE]) > 0.0 or length == 0.0:
-            return math.inf
-        return abs(float(way[0] * own[1] - way[1] * own[0])) / length
+    def _off_lines(self, left: Ints) -> Floats:
+        """How far bends lie off the lines of those before and after them [m], (n - 2,).
+
+        Infinite for those that stay.
+
+        Args:
+            left: Which bends there are, (n,).
+        """
+        before, at, after = left[:-2], left[1:-1], left[2:]
+        places, sides, is_detour = self.rows[:, :2], self.rows[:, SIDE], self.vias == DETOUR
+        way, own = places[after] - places[before], places[at] - places[before]
+        lengths = np.hypot(*way.T)
+        goes = is_detour[before] & is_detour[at] & is_detour[after] & (lengths > 0.0)
+        goes &= (sides[before] == sides[at]) & (sides[at] == sides[after])
+        offs = np.abs(way[:, 0] * own[:, 1] - way[:, 1] * own[:, 0])
+        found = np.full(len(at), np.inf)
+        found[goes] = offs[goes] / lengths[goes]
+        return found
 
     def heading_through(self, k: int) -> float:
         """The heading that halves the turn at bend k, which goes round nothing [rad].
