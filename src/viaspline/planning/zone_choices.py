@@ -50,11 +50,13 @@ class ZoneWay:
         without: Those zones.
         takes: At full speed, but for the zones that it meets [s].
         met: Those of them that may be left out.
+        corners: It [m], (n, 2).
     """
 
     without: Zones
     takes: float
     met: Zones
+    corners: Floats
 
 
 @dataclass(frozen=True)
@@ -82,14 +84,14 @@ class ZoneChoices:
         """Zones to leave out together, the likeliest first.
 
         Those that each leg is sooner without; then without those that another leg is sooner
-        through. Where turns are wider than a way, it may meet a zone that the way doesn't: so a
+        through. Turns are wider than a way, and may meet a zone that the way hardly passes: so a
         path of few legs may leave out all.
         """
         best = [self._soonest(leg) for leg in range(len(self.sequence.legs))]
         together = NONE.union(*(way.without for way in best))
         through = NONE.union(*(way.met for way in best))
         choices = [together, together - through]
-        if len(best) <= FEW_LEGS and self._changes_without(self._open):
+        if len(best) <= FEW_LEGS and any(self._may_meet(leg) for leg in range(len(best))):
             choices.append(self._open)
         return (zones for zones in dict.fromkeys(choices) if zones)
 
@@ -112,9 +114,9 @@ class ZoneChoices:
         corners = [zone.corners for zone in self._pace.zones]
         return np.array([(ring.min(axis=0), ring.max(axis=0)) for ring in corners])
 
-    def _near(self, places: Floats) -> Iterable[int]:
-        """The zones whose boxes meet that of some places (n, 2) [m]."""
-        low, high = places.min(axis=0), places.max(axis=0)
+    def _near(self, places: Floats, within: float = 0.0) -> Iterable[int]:
+        """The zones whose boxes meet that of some places (n, 2) [m], grown by ``within`` [m]."""
+        low, high = places.min(axis=0) - within, places.max(axis=0) + within
         apart = (self._boxes[:, 0] > high) | (self._boxes[:, 1] < low)
         near: list[int] = np.flatnonzero(~apart.any(axis=1)).tolist()
         return near
@@ -129,7 +131,7 @@ class ZoneChoices:
         """The way of a leg that takes least, without as few zones as that takes."""
         plain = self._way(leg, NONE)
         if plain is None:
-            return ZoneWay(NONE, np.inf, NONE)
+            return ZoneWay(NONE, np.inf, NONE, np.empty((0, 2)))
         met = plain.met | self._losing(leg)
         queue, ways = deque([met, *(frozenset({k}) for k in sorted(met))]), {NONE: plain}
         while queue and len(ways) < MOST_WAYS:
@@ -140,13 +142,19 @@ class ZoneChoices:
                 queue.appendleft(zones | way.met)
         return min(ways.values(), key=attrgetter("takes"))
 
-    def _changes_without(self, zones: Zones) -> bool:
-        """Whether leaving out some zones changes a way, or the path that was laid meets one."""
-        legs = range(len(self.sequence.legs))
-        if any(self._losing(leg) for leg in legs):
-            return True
-        ways = [(self._way(leg, NONE), self._way(leg, zones)) for leg in legs]
-        return any(a is not None and b is not None and a.takes != b.takes for a, b in ways)
+    def _may_meet(self, leg: int) -> bool:
+        """Whether a leg leads through a zone that may be left out, or its shortest way close by."""
+        way = self._way(leg, NONE)
+        return way is not None and bool(self._losing(leg) or self._beside(way.corners))
+
+    def _beside(self, corners: Floats) -> Zones:
+        """The zones that may be left out and that a way (n, 2) [m] passes as it does what stands."""
+        import shapely
+
+        way, required = shapely.LineString(corners), self.requirements.required
+        near = self._open.intersection(self._near(corners, required))
+        areas = {k: shapely.Polygon(self._pace.zones[k].corners) for k in near}
+        return frozenset(k for k, area in areas.items() if way.distance(area) < required)
 
     def _way(self, leg: int, zones: Zones) -> ZoneWay | None:
         """The shortest way of a leg without some zones, if there is one."""
@@ -179,7 +187,7 @@ class ZoneChoices:
             takes += lost
             if lost > 0.0:
                 met.add(k)
-        return ZoneWay(zones, takes, self._open & met)
+        return ZoneWay(zones, takes, self._open & met, corners)
 
     @cached_property
     def _problems(self) -> dict[Zones, PathProblem]:
