@@ -148,7 +148,7 @@ class ZoneChoices:
         return way is not None and bool(self._losing(leg) or self._beside(way.corners))
 
     def _beside(self, corners: Floats) -> Zones:
-        """The zones that may be left out and that a way (n, 2) [m] passes as it does what stands."""
+        """Zones that may be left out, and that a way (n, 2) [m] passes as it does what stands."""
         import shapely
 
         way, required = shapely.LineString(corners), self.requirements.required
