@@ -46,6 +46,22 @@ def test_a_speed_zone_is_drawn_shaped_slowed_and_deleted(visit: Visit, patrol: P
     assert page.plan["duration"] == before
 
 
+def test_a_zone_that_is_gone_round_is_listed_with_the_way_through(
+    visit: Visit, tmp_path: Path
+) -> None:
+    lab = "{polygon: [[40, -10], [60, -10], [60, 6], [40, 6]], max_speed_mps: 0.5, name: lab}"
+    mission = tmp_path / "lab.yaml"
+    mission.write_text(
+        f"world:\n  speed_zones: [{lab}]\nroute: {{start: [0, 0], goal: [100, 0]}}\n"
+    )
+    page = visit(mission)
+    (entry,) = page.js("studio.store.ledger")
+    assert entry["members"] == ["speed zone 'lab'"]
+    through = page.page.locator(".side:has-text('through')")
+    assert "100.0 m" in through.inner_text()
+    assert through.is_disabled()
+
+
 def test_a_fence_is_drawn_and_moved_without_a_mouse(visit: Visit, patrol: Path) -> None:
     page = visit(patrol)
     page.page.focus("#map")

@@ -100,7 +100,8 @@ def ledger(planned: PlannedDocument, revision: int) -> dict[str, Any]:
     entries = []
     for entry in plan.ledger:
         members = [names[name] for name in entry.members if name in names]
-        if entry.members and not members:
+        is_zone = any(candidate.side == "through" for candidate in entry.candidates)
+        if entry.members and not members and not is_zone:
             continue  # what moves, taken to stand: the timed paths say that
         listed = [plan.world.listed_at(i) for i in members]
         items = [planned.unfolded.original(("world", "known", i))[2] for i in listed]

@@ -130,7 +130,7 @@ export class Summary {
     const side = (/** @type {string} */ which) => {
       const candidate = entry.candidates.find((/** @type {any} */ c) => c.side === which);
       const text = candidate?.length ? `${metres(candidate.length, 1)}, ${seconds(candidate.duration)}` : forced && forced !== which ? "forbidden" : candidate?.impossible ? "blocked" : "–";
-      const how = which === "over" || which === "under" || which === "straight" ? which : `on the ${which}`;
+      const how = ["over", "under", "straight", "through"].includes(which) ? which : `on the ${which}`;
       return h("button", {
         type: "button", class: "side", "aria-pressed": String(!!candidate?.chosen), disabled: !entry.forceable || which === "straight",
         "aria-label": `pass ${name} ${how}, ${text}`, title: candidate?.impossible ?? candidate?.passedOver ?? `pass ${how}`,
@@ -140,7 +140,8 @@ export class Summary {
         },
       }, h("span", { class: "side-name" }, which), h("span", {}, text));
     };
-    const sides = store.curve?.isSpatial ? entry.candidates.map((/** @type {any} */ c) => c.side) : ["left", "right"];
+    const tried = entry.candidates.map((/** @type {any} */ c) => c.side);
+    const sides = store.curve?.isSpatial ? tried : ["left", "right", ...tried.filter((/** @type {string} */ one) => one === "through")];
     return h("li", { class: "group" },
       h("div", { class: "group-name" }, h("span", { title: name }, name),
         forced ? h("button", { type: "button", class: "link", onclick: () => store.edit(forceSide(store.doc, entry.items, null)) }, `forced ${forced} · free it`) : null),
