@@ -39,6 +39,51 @@ ASKED: dict[str, dict[str, Any]] = {
         "route": {**ROUTE, "via": [[80, 80], [20, 90], [70, 20]], "order": "shortest"},
     },
     "among": {"world": {"known": [TANK, CART]}, "route": ROUTE},
+    "turning slowly among": {
+        "world": {
+            "known": [
+                {"circle": {"center": [13.96, 2], "radius": 0.738}},
+                {
+                    "circle": {"center": [0, 0], "radius": 0.24},
+                    "motion": {"from": [5.52, 8.47], "velocity_mps": [0.46, -0.04]},
+                },
+                {
+                    "circle": {"center": [0, 0], "radius": 0.35},
+                    "motion": {
+                        "keyframes": [[0, 14.72, 7.25], [4.68, 15, 8.76], [28.75, 1.34, 0.57]],
+                        "after": "bounce",
+                    },
+                },
+            ],
+            "speed_zones": [
+                {"polygon": [[2, 8], [7, 8], [7, 13], [2, 13]], "max_speed_mps": 0.565},
+                {"polygon": [[1, 2], [6.5, 2], [6.5, 4.4], [1, 4.4]], "max_speed_mps": 0.209},
+            ],
+        },
+        "robot": {
+            "max_speed_mps": 1.328, "max_accel_mps2": 1, "radius_m": 0.4, "clearance_m": 0.315,
+            "drive": {
+                "omnidirectional": {"max_speed_along_mps": 1.5, "max_speed_across_mps": 1},
+                "delay_s": 0.05, "lag_s": 0.1,
+            },
+            "max_yaw_accel_degps2": 63.276,
+        },
+        "route": {
+            "start": [17.33, 5.07], "via": [[12.87, 11.76], {"at": [4.38, 0.31], "dwell_s": 2}],
+            "closed": True, "laps": 2, "optimise": "length",
+        },
+    },
+    "round a zone": {
+        "world": {
+            "speed_zones": [
+                {
+                    "polygon": [[40, 30], [60, 30], [60, 60], [40, 60]], "max_speed_mps": 0.3,
+                    "name": "lab",
+                },
+            ],
+        },
+        "route": {"start": [10, 50], "goal": [90, 50]},
+    },
     "laps": {
         "world": {"known": [TANK]},
         "route": {"start": [10, 50], "via": [[70, 70], [80, 30]], "closed": True, "laps": 2},

@@ -23,6 +23,8 @@ PROVEN_OFF_M: Final = 1e-3
 """Two proofs of one clearance differ by no more."""
 TIMED_OFF: Final = 1e-6
 """Part of a time or a speed by which another machine may round it."""
+GRIDS_OFF: Final = 1e-3
+"""Part of the greatest speed by which laws differ that know their limits at other places."""
 _COLUMNS: Final = ("distances", "speeds", "times", "accelerations", "changes", "jerks")
 
 
@@ -47,7 +49,7 @@ def law_within_limits(
     if law.start_time != free.start_time or law.distances[0] != 0.0:
         raise plan.wrong("trajectory.law doesn't begin where and when the mission does")
     allowed = np.asarray(free.speed_at(law.distances))
-    if (law.speeds > allowed * (1.0 + TIMED_OFF) + TIMED_OFF).any():
+    if (law.speeds > allowed + GRIDS_OFF * limits.max_speed).any():
         raise plan.wrong("trajectory.law is faster than the robot's limits allow")
     over = np.maximum(law.accelerations - limits.max_accel, -limits.brake - law.accelerations)
     faster = np.maximum(over, 0.0) @ np.diff(law.times)  # pieces of no length have any acceleration
