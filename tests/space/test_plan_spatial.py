@@ -189,8 +189,10 @@ def test_other_sides_of_cubes_are_looked_for_when_the_ledger_of_a_short_flight_i
     assert [one.length for one in again.ledger[0].candidates] == [
         one.length for one in entry.candidates
     ]
+    assert entry.chosen.duration == pytest.approx(plan.trajectory.duration)
     for one in entry.candidates:
         assert one.length is not None
+        assert one.duration is not None
         if one.length < entry.chosen.length:  # type: ignore[operator]
             assert one.passed_over is not None
 

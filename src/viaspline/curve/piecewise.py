@@ -260,7 +260,7 @@ class PiecewiseCubic(Measured, ShownValue, ComparedByValue):
             low, high = max(u0 - k, 0.0), min(u1 - k, 1.0)
             if (low, high) != (0.0, 1.0):
                 kernels.subspan(self._spans[k], low, high, spans[k - first])
-        joints = np.r_[u0, np.arange(first + 1.0, last + 1.0), u1]
+        joints = np.concatenate(((u0,), np.arange(first + 1.0, last + 1.0), (u1,)))
         knots = np.interp(joints, np.arange(0.0, len(self.knots)), self.knots)
         return self._made(spans, np.asarray(knots))
 

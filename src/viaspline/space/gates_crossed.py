@@ -53,6 +53,24 @@ def crossings(spans: Floats, gate: Floats) -> Iterator[Floats]:
             yield weights @ spans[k]
 
 
+def straight_crossings(places: Floats, gate: Floats) -> Iterator[Floats]:
+    """The places at which straight lines go through the plane of a gate.
+
+    Args:
+        places: From each of these to the next one [m], (n, 3).
+        gate: One row, (8,).
+
+    >>> line = np.array([[0.0, 1, 5], [3, 1, 5]])
+    >>> [at.tolist() for at in straight_crossings(line, np.array([2.0, 0, 1, 0, 0, 0, 0, 1]))]
+    [[2.0, 1.0, 5.0]]
+    """
+    before = (places[:, :2] - gate[[GATE_X, GATE_Y]]) @ gate[[AHEAD_X, AHEAD_Y]]
+    low, high = np.minimum(before[:-1], before[1:]), np.maximum(before[:-1], before[1:])
+    for k in np.flatnonzero((low <= 0.0) & (high >= 0.0) & (low < high)).tolist():
+        share = before[k] / (before[k] - before[k + 1])
+        yield places[k] + share * (places[k + 1] - places[k])
+
+
 def side_of(gate: Floats, place: Floats) -> int:
     """The side (a bit) of a gate on which a place of its plane lies."""
     left = gate[AHEAD_X] * (place[1] - gate[GATE_Y]) - gate[AHEAD_Y] * (place[0] - gate[GATE_X])

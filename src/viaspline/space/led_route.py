@@ -117,11 +117,24 @@ class RouteLayer:
             best = self.lay(legs, {})
         except StuckLegError:  # what was free alone isn't with its neighbours
             return [replace(self, take=attrgetter("taut")).lay(legs, {})]
-        cost = cost_of(self.problem)
-        least, taut = cost(best.laid), frozenset[int]()
         differ = [
             leg for leg in sorted(best.ways) if self.led[leg].taut is not self.led[leg].sooner
         ]
+        if differ:
+            best = self._by_other_ways(legs, best, differ)
+        together = self._best_together(legs, best)
+        return [best] if together is best else [together, best]
+
+    def _by_other_ways(self, legs: RouteLegs, best: LedRoute, differ: list[int]) -> LedRoute:
+        """A route with all corners of some of its legs, where that makes the whole of it cheaper.
+
+        Args:
+            legs: Of the route, left to the spline.
+            best: The route, each leg by those of its corners with which it is the best alone.
+            differ: Which legs have others.
+        """
+        cost = cost_of(self.problem)
+        least, taut = cost(best.laid), frozenset[int]()
         for which in _others(differ):
             tried = taut ^ which
             ways = {
@@ -131,8 +144,7 @@ class RouteLayer:
             other = self._led_by(legs, ways)
             if other is not None and (price := cost(other.laid)) < least:
                 best, least, taut = other, price, tried
-        together = self._best_together(legs, best)
-        return [best] if together is best else [together, best]
+        return best
 
     def _best_together(self, legs: RouteLegs, found: LedRoute) -> LedRoute:
         """A route with other ways of its legs, one after the other, as long as it gets cheaper.
@@ -226,7 +238,7 @@ class RouteLayer:
         if not self.router.defers(nearest):
             return scale.weighed(ways)
         try:
-            found = scale.weighed(ways)
+            found = scale.untimed(ways)
         except StuckLegError:  # others may be laid
             return scale.weighed([*ways, *self.router.others(scale.leg, nearest)])
         self.untold[scale.leg] = LedLeg(scale.leg, nearest)
@@ -235,7 +247,6 @@ class RouteLayer:
 
 def _others(differ: list[int]) -> Iterator[frozenset[int]]:
     """Which legs are led by their other way at once: all of them, then each."""
-    if differ:
-        yield frozenset(differ)
+    yield frozenset(differ)
     if 1 < len(differ) <= MOST_LEGS:
         yield from (frozenset([leg]) for leg in differ)

@@ -18,6 +18,12 @@ from viaspline.space.gates_crossed import wrong_side
 from viaspline.space.spatial_problem import SpatialProblem
 
 
+def proven(problem: SpatialProblem, spans: Floats) -> Certificate:
+    """What is proven of the clearance of a curve, (m, 4, 3) [m]."""
+    curve = PiecewiseCubic(spans)
+    return certify(curve, problem.world, problem.clearance, radius=problem.radius)
+
+
 @dataclass(frozen=True, eq=False)
 class LegCheck:
     """What a leg's curve has to pass: clearance, limits of its height, sides that are asked for.
@@ -49,11 +55,9 @@ class LegCheck:
 
     def proof(self, spans: Floats) -> Certificate:
         """What is proven of the clearance of a curve, (m, 4, 3) [m]."""
-        key, asked = spans.tobytes(), self.problem
+        key = spans.tobytes()
         if key not in self.known:
-            self.known[key] = certify(
-                PiecewiseCubic(spans), asked.world, asked.clearance, radius=asked.radius
-            )
+            self.known[key] = proven(self.problem, spans)
         return self.known[key]
 
     def _failing(self, leg: int, spans: Floats) -> Floats | None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -23,8 +22,7 @@ from viaspline.mission.shapes.solids import Solid
 from viaspline.planning.problem.ledger import PassingSide
 from viaspline.planning.problem.method import Found
 from viaspline.space.asked_passes import AskedPass, asked_passes, gates_of_leg, passes_of_leg
-from viaspline.space.gates_crossed import crossings, side_of
-from viaspline.space.laying.corner_rounding import straight_span
+from viaspline.space.gates_crossed import side_of, straight_crossings
 from viaspline.space.legs_without_way import given_up_leg, refused_leg, shut_leg
 from viaspline.space.routing.pass_gates import SIDE_BITS, gate
 from viaspline.space.routing.search_room import SearchRoom
@@ -284,9 +282,8 @@ def _side_past(solid: Solid | None, route: TautRoute) -> PassingSide:
     if solid is None:
         return "over"
     rows = gate(solid, route.points[0], route.points[-1], SIDE_BITS)
-    spans = np.array([straight_span(a, b) for a, b in pairwise(route.points)])
     for row in rows:
-        for place in crossings(spans, row):
+        for place in straight_crossings(route.points, row):
             bit = side_of(row, place)
             return next(side for side, own in SIDE_BITS.items() if own == bit)
     return "over"

@@ -6,14 +6,15 @@ least; then the curve is proven once more as a whole, with the upright legs of t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
 from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
+from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GaveUpError, NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError
@@ -22,7 +23,7 @@ from viaspline.space.laying.gentle_turns import DEARER, ROUND_DEARER, GentleTurn
 from viaspline.space.laying.laid_route import LaidRoute, RouteLegs
 from viaspline.space.laying.via_directions import via_directions
 from viaspline.space.led_route import RouteLayer
-from viaspline.space.leg_check import LegCheck
+from viaspline.space.leg_check import LegCheck, proven
 from viaspline.space.part_of_path import part_of_path
 from viaspline.space.route_law import LANDING, TAKE_OFF, cost_of
 from viaspline.space.spatial_problem import SpatialProblem
@@ -61,7 +62,7 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
     )  # fmt: skip
     found = turns.best_of(routes)
     path, airborne = _whole_path(problem, found)
-    proof = whole_proof(problem, path, airborne)
+    proof = whole_proof(problem, path, airborne, layer.check.proof)
     if not proof.holds:
         raise _upright_leg_blocked(problem, proof, airborne)
     return SpatialSolution(path, proof, layer.account(found), airborne)
@@ -183,26 +184,43 @@ def _moved(via: PathVia, by: int) -> PathVia:
     return PathVia(via.name, via.at, via.kind, via.u + by, via.dwell, via.index)
 
 
-def whole_proof(problem: SpatialProblem, path: Path, airborne: tuple[float, float]) -> Certificate:
-    """What is proven of the whole path; on upright legs the ground doesn't count."""
-    parts: list[tuple[float, float, bool]] = [(*airborne, False)]
+Prove = Callable[[Floats], Certificate]
+"""From the spans of a curve (m, 4, 3) [m] to what is proven of its clearance."""
+
+
+def whole_proof(
+    problem: SpatialProblem,
+    path: Path,
+    airborne: tuple[float, float],
+    prove: Prove | None = None,
+) -> Certificate:
+    """What is proven of the whole path; on upright legs the ground doesn't count.
+
+    Args:
+        problem: Whose path it is.
+        path: It.
+        airborne: From where to where it flies [m].
+        prove: Of that part; what is known already of such a curve isn't proven again.
+    """
+    parts = [(*airborne, prove or partial(proven, problem))]
+    upright = partial(_proven_upright, problem)
     if problem.takeoff is not None:
-        parts.append((0.0, airborne[0], True))
+        parts.append((0.0, airborne[0], upright))
     if problem.landing is not None:
-        parts.append((airborne[1], path.length, True))
-    proofs: Sequence[Certificate] = [
-        _proof(problem, path, first, last, upright) for first, last, upright in parts
-    ]
+        parts.append((airborne[1], path.length, upright))
+    proofs = [_proof(path, first, last, proves) for first, last, proves in parts]
     return min(proofs, key=lambda proof: proof.clearance)
 
 
-def _proof(
-    problem: SpatialProblem, path: Path, first: float, last: float, upright: bool
-) -> Certificate:
+def _proven_upright(problem: SpatialProblem, spans: Floats) -> Certificate:
+    world = without_ground(problem.world)
+    return certify(PiecewiseCubic(spans), world, problem.clearance, radius=problem.radius)
+
+
+def _proof(path: Path, first: float, last: float, prove: Prove) -> Certificate:
     """The proof of a part of the path, told in the whole one's parameters."""
     u0, u1 = np.asarray(path.parameter([first, last])).tolist()
-    world = without_ground(problem.world) if upright else problem.world
-    proof = certify(part_of_path(path, u0, u1), world, problem.clearance, radius=problem.radius)
+    proof = prove(part_of_path(path, u0, u1).spans)
     return replace(
         proof,
         tightest_u=proof.tightest_u + u0,

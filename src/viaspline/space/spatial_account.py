@@ -30,7 +30,7 @@ class LedLeg(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class UntoldSides:
-    """Ways on sides that weren't weighed when the path was laid.
+    """Ways on sides that weren't weighed when the path was laid, and how long those take that were.
 
     Attributes:
         problem: What was asked.
@@ -52,6 +52,7 @@ class UntoldSides:
     def _with_others(self, entry: LedgerEntry, led: LedLeg) -> LedgerEntry:
         ways = self.router.others(led.leg, led.proof)
         scale = LegScale(self.problem, LegCheck(self.problem, self.router.gates), led.leg)
+        entry = replace(entry, candidates=tuple(map(scale.timed, entry.candidates)))
         try:
             found = scale.weighed(ways) if ways else ()
         except StuckLegError:  # none of them can be laid

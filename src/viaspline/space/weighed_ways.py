@@ -163,6 +163,13 @@ def told(found: Sequence[WeighedWay], taken: WeighedWay) -> tuple[Candidate, ...
     return tuple(candidates)
 
 
+def _impossible(way: TautWay, stuck: StuckLegError) -> WeighedWay:
+    x, y, z = stuck.place.tolist()
+    why = f"it comes too near at ({x:.2f}, {y:.2f}, {z:.2f}) however tightly it turns"
+    nothing = Candidate(way.side, way.inner, np.empty((0, 4, 3)), impossible=why)
+    return WeighedWay(way, nothing, math.inf)
+
+
 @dataclass(frozen=True, eq=False)
 class LegScale:
     """What ways of a leg cost: each laid alone, from rest to rest.
@@ -183,10 +190,27 @@ class LegScale:
         Raises:
             StuckLegError: When none of them can be laid.
         """
-        found = [self._weighed(way) for way in ways]
+        return self._some([self._weighed(way) for way in ways])
+
+    def untimed(self, ways: Sequence[TautWay]) -> Sequence[WeighedWay]:
+        """Ways with their lengths, which they cost; how long they take is told by ``timed``.
+
+        Raises:
+            StuckLegError: When none of them can be laid.
+        """
+        return self._some([self._measured(way) for way in ways])
+
+    def _some(self, found: Sequence[WeighedWay]) -> Sequence[WeighedWay]:
         if all(math.isinf(one.cost) for one in found):
             raise StuckLegError(self.leg, self.problem.places[self.leg])
         return found
+
+    def timed(self, candidate: Candidate) -> Candidate:
+        """One of a ledger with how long it takes; itself, where that is known or it can't be."""
+        if candidate.length is None or candidate.duration is not None:
+            return candidate
+        path = self._path(candidate.spans)
+        return replace(candidate, duration=law_of(self.problem, path).duration)
 
     def sooner(self, found: Sequence[WeighedWay]) -> Sequence[WeighedWay]:
         """Ways with those of their corners alone with which they are the fastest.
@@ -211,21 +235,28 @@ class LegScale:
         return np.concatenate((vias[0].at[None], way.inner, vias[1].at[None]))
 
     def _weighed(self, way: TautWay) -> WeighedWay:
-        problem = self.problem
+        """A way with what it costs, and how long it takes."""
         try:
             path = self._laid(self._points(way))
         except StuckLegError as stuck:
-            x, y, z = stuck.place.tolist()
-            why = f"it comes too near at ({x:.2f}, {y:.2f}, {z:.2f}) however tightly it turns"
-            nothing = Candidate(way.side, way.inner, np.empty((0, 4, 3)), impossible=why)
-            return WeighedWay(way, nothing, math.inf)
-        law = law_of(problem, path)
-        clearance = self.check.proof(path.spans).clearance
-        candidate = Candidate(
-            way.side, way.inner, np.asarray(path.spans), path.length, law.duration,
-            clearance, float(path.max_curvature()[0]),
-        )  # fmt: skip
+            return _impossible(way, stuck)
+        law = law_of(self.problem, path)
+        candidate = self._candidate(way, path, law.duration)
         return WeighedWay(way, candidate, self._cost(path, law))
+
+    def _measured(self, way: TautWay) -> WeighedWay:
+        """A way with how long it is."""
+        try:
+            path = self._laid(self._points(way))
+        except StuckLegError as stuck:
+            return _impossible(way, stuck)
+        return WeighedWay(way, self._candidate(way, path, None), path.length)
+
+    def _candidate(self, way: TautWay, path: Path, duration: float | None) -> Candidate:
+        return Candidate(
+            way.side, way.inner, np.asarray(path.spans), path.length, duration,
+            self.check.proof(path.spans).clearance, float(path.max_curvature()[0]),
+        )  # fmt: skip
 
     def _cost(self, path: Path, law: Trajectory) -> float:
         """By what a curve with its law is chosen."""
@@ -252,7 +283,9 @@ class LegScale:
             StuckLegError: When it isn't clear, however tight it is.
         """
         polygon = self._polygon(points, corner_radius(self.problem))
-        spans = tightened_leg(polygon, self.leg, self.check).curve()
+        return self._path(tightened_leg(polygon, self.leg, self.check).curve())
+
+    def _path(self, spans: Floats) -> Path:
         return part_of_route(self.problem, spans, self.leg, [0, len(spans)])
 
     def _polygon(self, points: Floats, radius: float) -> LegPolygon:

@@ -161,6 +161,8 @@ def _distinct(ring: Sequence[tuple[float, float]]) -> Sequence[tuple[float, floa
 
 def edges_of(rings: Sequence[Rings]) -> tuple[Floats, Ints, Ints]:
     """Edges of rings, each with its holes, and their blocks, as ``pack_rings`` gives them."""
+    if not rings:
+        return np.empty((0, 4)), np.zeros(1, np.int64), np.zeros(1, np.int64)
     loops = [loop if len(loop) < 3 else _distinct(loop) for ring in rings for loop in ring]
     vertices = [vertex for loop in loops for vertex in loop]
     packed: tuple[Floats, Ints, Ints] = pack_rings(

@@ -63,7 +63,9 @@ def retime_in_space(
 
 def along_limits(limits: SpatialLimits) -> Limits:
     """The limits along the path and, where there is one, of the acceleration up and down."""
-    along = replace(limits.along, max_yaw_rate=None, max_yaw_accel=None)
+    along = limits.along
+    if along.max_yaw_rate is not None or along.max_yaw_accel is not None:
+        along = replace(along, max_yaw_rate=None, max_yaw_accel=None)
     if limits.vertical_accel is None:
         return along
     across = along.max_lateral_accel or along.max_accel

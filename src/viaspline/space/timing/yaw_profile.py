@@ -140,7 +140,7 @@ def yaw_profile(
     places = path.evaluate(u.ravel())
     ways = _tangents(path.spans, shares)
     at = np.asarray(path.distance(u.ravel()))
-    headings = np.unwrap(facing.headings(places, ways))
+    headings = _going_on(facing.headings(places, ways))
     stops = path.stops
     for index, (x, y) in looks:
         via, here = stops[index]
@@ -155,6 +155,12 @@ def yaw_profile(
         if 0 < first < len(at):  # it stands as it looks, even where its path turns back
             headings[first:] += _whole_turns(headings[first - 1] - headings[first])
     return _without_rounding(at, headings)
+
+
+def _going_on(headings: Floats) -> Floats:
+    """Headings [rad] that go on beyond pi; most paths never turn that way."""
+    steps = np.abs(np.diff(headings))
+    return headings if steps.max(initial=0.0) < math.pi else np.unwrap(headings)
 
 
 def _looking(headings: Floats, part: slice, share: Floats, here: int, toward: float) -> Floats:

@@ -23,6 +23,8 @@ def space_tree(boxes: Floats) -> tuple[Floats, Ints, Ints]:
     (array([3, 2, 3]), array([-1,  0,  1]))
     """
     count = len(boxes)
+    if count == 1:
+        return boxes.copy(), np.ones(1, np.int64), np.zeros(1, np.int64)
     nodes = np.empty((max(2 * count - 1, 0), 6))
     skip = np.empty(len(nodes), np.int64)
     leaf = np.full(len(nodes), -1, np.int64)
