@@ -156,10 +156,11 @@ class System(NamedTuple):
         cells, slip = self.cells, 1e-9 * (1.0 + stage.end)
         line, cell, ends = time_grid.divide(cells.along, marks, slip)
         tops = np.full(cell.size, cell_size.square)
-        for part in stage.slow:
-            middles = 0.5 * (line[1:] + line[:-1])
-            within = (middles > part.start) & (middles < part.end)
-            tops[within] = np.minimum(tops[within], part.speed**2)
+        middles = 0.5 * (line[1:] + line[:-1])
+        first = np.searchsorted(middles, [part.start for part in stage.slow], side="right")
+        last = np.searchsorted(middles, [part.end for part in stage.slow])
+        for part, low, high in zip(stage.slow, first.tolist(), last.tolist(), strict=True):
+            np.minimum(tops[low:high], part.speed**2, out=tops[low:high])
         caps = jump_caps(cells, limits, line, cell_size)
         caps[np.searchsorted(line, self.rests)] = 0.0
         caps[-1] = min(caps[-1], stage.last**2)

@@ -72,6 +72,8 @@ def _even_pieces(spans: Floats, up: float, down: float, top: float) -> tuple[Flo
         ends.append(lows[even] + width)
         speeds.append(slowest[even])
         width *= 0.5
+        if even.all():
+            break
         spans, lows = _halved(spans[~even]), np.repeat(lows[~even], 2)
         lows[1::2] += width
     every = np.concatenate(ends)
