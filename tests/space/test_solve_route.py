@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,6 +15,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.mission.shapes.solids import Prism
 from viaspline.space.laying.laid_route import CurveShape
+from viaspline.space.led_route import KnownWays
 from viaspline.space.solve_route import solve_route
 from viaspline.space.spatial_problem import SpatialProblem, SpatialVia
 from viaspline.space.timing.spatial_limits import SpatialLimits
@@ -113,3 +116,17 @@ def test_what_stands_in_the_way_of_a_take_off_counts() -> None:
         solve_route(asked, OverAll(asked))
     assert error.value.obstacles == ("roof",)
     assert error.value.where[2] < 20.0
+
+
+def test_ways_of_legs_that_another_problem_shares_are_looked_for_once() -> None:
+    world = blocks(3)
+    asked = problem(world, [[10.0, 10, 20], [190, 190, 12], [10, 180, 25], [190, 20, 8]])
+    other = replace(asked, vias=(SpatialVia("here", np.array([20.0, 5, 20]), 0), *asked.vias[1:]))
+    known: KnownWays = {}
+    solve_route(asked, OverAll(asked), known)
+    led = len(known)
+    found = solve_route(other, OverAll(other), known)
+    legs_anew = [key for key in list(known)[led:] if key[0].name != "here"]
+    assert led > 1
+    assert not legs_anew
+    assert np.array_equal(found.path.spans, solve_route(other, OverAll(other)).path.spans)

@@ -21,7 +21,7 @@ from viaspline.space.laying.laid_route import RouteLegs
 from viaspline.space.leg_check import LegCheck
 from viaspline.space.route_law import cost_of
 from viaspline.space.spatial_account import LedLeg, SpatialAccount, UntoldSides
-from viaspline.space.spatial_problem import SpatialProblem
+from viaspline.space.spatial_problem import SpatialProblem, SpatialVia
 from viaspline.space.weighed_ways import (
     LegScale,
     WaysPast,
@@ -54,12 +54,21 @@ class LedWay(NamedTuple):
 class LedWays(NamedTuple):
     """The best taut way, and the best with fewer corners, which is no slower alone.
 
-    Others are as well, nearly; the best first.
+    Others are as well, nearly; the best first. On sides on which none was looked for there may be
+    more, past what was nearest; None: it was looked for on all.
     """
 
     taut: LedWay
     sooner: LedWay
     others: Sequence[LedWay]
+    untold: Certificate | None
+
+
+KnownWays = dict[tuple[SpatialVia, SpatialVia, str | None], LedWays]
+"""The ways of legs that were looked for, by their via points and what is nearest to their curve.
+
+Routes of problems that differ in their via points alone share them.
+"""
 
 
 @dataclass(frozen=True)
@@ -78,7 +87,7 @@ class RouteLayer:
         router: Finds the ways past things.
         check: What every leg has to pass.
         take: Which of the ways of a leg it is led by.
-        known: Those that were found, by leg and thing.
+        known: Those that were found, whoever looked for them.
         led: Those by which legs are led, by leg.
         untold: Of which of these the ways on other sides weren't weighed, by leg.
     """
@@ -87,7 +96,7 @@ class RouteLayer:
     router: WaysPast
     check: LegCheck
     take: Callable[[LedWays], LedWay] = attrgetter("sooner")
-    known: dict[tuple[int, str | None], LedWays] = field(default_factory=dict)
+    known: KnownWays = field(default_factory=dict)
     led: dict[int, LedWays] = field(default_factory=dict)
     untold: dict[int, LedLeg] = field(default_factory=dict)
 
@@ -178,8 +187,11 @@ class RouteLayer:
         ways = dict(before)
 
         def lead_round(leg: int, laid: Floats) -> Floats:
-            self.led[leg] = self._ways(leg, laid)
-            ways[leg] = self.take(self.led[leg])
+            found = self.led[leg] = self._ways(leg, laid)
+            self.untold.pop(leg, None)
+            if found.untold is not None:
+                self.untold[leg] = LedLeg(leg, found.untold)
+            ways[leg] = self.take(found)
             return ways[leg].inner
 
         found = clear_route(legs, self.check, lead_round, self.radius)
@@ -210,12 +222,12 @@ class RouteLayer:
 
     def _ways(self, leg: int, laid: Floats) -> LedWays:
         problem, nearest = self.problem, self.check.proof(laid)
-        key = leg, nearest.obstacle
+        key = problem.vias[leg], problem.vias[leg + 1], nearest.obstacle
         if key not in self.known:
             names = problem.vias[leg].name, problem.vias[leg + 1].name
             members = () if nearest.obstacle is None else (nearest.obstacle,)
             scale = LegScale(problem, self.check, leg)
-            plain = self._weighed(scale, nearest)
+            plain, untold = self._weighed(scale, nearest)
             better = scale.sooner(plain)
 
             def led_by(found: Sequence[WeighedWay], taken: WeighedWay) -> LedWay:
@@ -227,22 +239,21 @@ class RouteLayer:
                 sooner = led_by(better, least[0])
             others = [one for one in least[1:] if one.cost <= NEARLY * least[0].cost]
             self.known[key] = LedWays(
-                taut, sooner, [led_by(better, one) for one in others[:MOST_OTHERS]]
+                taut, sooner, [led_by(better, one) for one in others[:MOST_OTHERS]], untold
             )
         return self.known[key]
 
-    def _weighed(self, scale: LegScale, nearest: Certificate) -> Sequence[WeighedWay]:
-        """The ways of a leg that may be taken, with what they cost."""
+    def _weighed(
+        self, scale: LegScale, nearest: Certificate
+    ) -> tuple[Sequence[WeighedWay], Certificate | None]:
+        """The ways of a leg that may be taken, with what they cost; and past what more may be."""
         ways = self.router.ways(scale.leg, nearest)
-        self.untold.pop(scale.leg, None)
         if not self.router.defers(nearest):
-            return scale.weighed(ways)
+            return scale.weighed(ways), None
         try:
-            found = scale.untimed(ways)
+            return scale.untimed(ways), nearest
         except StuckLegError:  # others may be laid
-            return scale.weighed([*ways, *self.router.others(scale.leg, nearest)])
-        self.untold[scale.leg] = LedLeg(scale.leg, nearest)
-        return found
+            return scale.weighed([*ways, *self.router.others(scale.leg, nearest)]), None
 
 
 def _others(differ: list[int]) -> Iterator[frozenset[int]]:

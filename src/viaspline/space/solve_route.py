@@ -22,7 +22,7 @@ from viaspline.space.laying.corner_rounding import straight_span
 from viaspline.space.laying.gentle_turns import DEARER, ROUND_DEARER, GentleTurns
 from viaspline.space.laying.laid_route import LaidRoute, RouteLegs
 from viaspline.space.laying.via_directions import via_directions
-from viaspline.space.led_route import RouteLayer
+from viaspline.space.led_route import KnownWays, RouteLayer
 from viaspline.space.leg_check import LegCheck, proven
 from viaspline.space.part_of_path import part_of_path
 from viaspline.space.route_law import LANDING, TAKE_OFF, cost_of
@@ -36,19 +36,24 @@ from viaspline.space.weighed_ways import (
 from viaspline.space.without_ground import without_ground
 
 
-def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
+def solve_route(
+    problem: SpatialProblem, router: WaysPast, known: KnownWays | None = None
+) -> SpatialSolution:
     """Find a path.
 
     Args:
         problem: What is asked.
         router: What finds the ways past things.
+        known: Ways of legs that were found for problems that differ in their via points alone;
+            those that are found are added.
 
     Raises:
         NoPathError: When there is none, proven.
         GaveUpError: When none was found.
     """
     legs = RouteLegs.left_to_the_spline(problem.places, _directions(problem), problem.shape)
-    layer = RouteLayer(problem, router, LegCheck(problem, cache(router.gates)))
+    check = LegCheck(problem, cache(router.gates))
+    layer = RouteLayer(problem, router, check, known={} if known is None else known)
     try:
         routes = layer.cheapest(legs)
     except StuckLegError as stuck:

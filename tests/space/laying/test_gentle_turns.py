@@ -105,8 +105,11 @@ def test_a_direction_that_leads_away_is_flown_by_an_arc_and_kept(facing: float) 
     assert Path(found.laid.spans, []).length < 90.0  # and not far beyond the via point
 
 
-def test_straight_back_is_a_turn_as_wide_as_the_body_needs() -> None:
-    found = turns().of(spline(np.array([[0.0, 0, 9], [30, 0, 9], [0, 0, 9]])))
+def test_a_hair_beside_straight_back_is_a_turn_as_wide_as_the_body_needs() -> None:
+    """Exactly straight back the spline stands at the via point, and nothing is sharp."""
+    sharp = spline(np.array([[0.0, 0, 9], [30, 0, 9], [0, 0.001, 9]]))
+    assert sharpest(sharp) < 1e-3 * LEAST
+    found = turns().of(sharp)
     assert sharpest(found) >= LEAST
     assert found.laid.spans[:, :, 0].max() < 30 + 4 * LEAST
 

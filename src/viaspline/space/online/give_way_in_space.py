@@ -11,8 +11,9 @@ Tested through ``space/online/test_fly_among_unseen``.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 from typing import Final
 
@@ -182,6 +183,10 @@ def _meeting(
     )  # fmt: skip
 
 
+_Ways = Callable[[Flight, Takeover, FlightMeeting, Sequence[MovingSolid]], Iterator[NewLeg]]
+"""Other paths from a take-over on, past whom the robot would meet and all that is foreseen."""
+
+
 def _by_another_way(
     flight: Flight, now: float, ahead: FlightAhead, meeting: FlightMeeting | None, ends: float
 ) -> Flight | None:
@@ -195,7 +200,8 @@ def _by_another_way(
     if meeting is None:
         return None
     begins_at = list(_takeovers(flight, now, ahead))
-    for ways, begins in product((swerves, ways_round), begins_at):
+    both: tuple[_Ways, ...] = (partial(swerves, known={}), ways_round)
+    for ways, begins in product(both, begins_at):
         best = None
         until = max(flight.legs[-1].law.end_time, begins.time) + MAX_HELD_UP_S
         foreseen = _from(flight.tracks.foreseen(now, until, APART_M[0]), begins.time)

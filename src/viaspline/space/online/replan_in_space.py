@@ -16,6 +16,7 @@ from viaspline.errors import GeometryError, PlanningError
 from viaspline.mission.model import Mission
 from viaspline.space.among.moving_solid import MovingSolid
 from viaspline.space.among.timed_past import solids_beside, timed_past
+from viaspline.space.led_route import KnownWays
 from viaspline.space.leg_router import LegRouter
 from viaspline.space.online.flown_leg import FlownLeg
 from viaspline.space.online.takeover import Takeover
@@ -44,7 +45,7 @@ class NewLeg:
 
 def replan_in_space(
     mission: Mission, problem: SpatialProblem, old: FlownLeg, ahead: Sequence[SpatialVia],
-    begins: Takeover, foreseen: Sequence[MovingSolid] = (),
+    begins: Takeover, foreseen: Sequence[MovingSolid] = (), known: KnownWays | None = None,
 ) -> NewLeg | PlanningError | GeometryError:  # fmt: skip
     """A path from a take-over on through the via points that are still ahead.
 
@@ -55,6 +56,7 @@ def replan_in_space(
         ahead: The via points that are still to be served.
         begins: Where and how fast.
         foreseen: What moves and isn't on the map, as it is taken to go on.
+        known: See ``solve_route``.
 
     Returns:
         What is flown from then on; or why there is nothing.
@@ -70,7 +72,7 @@ def replan_in_space(
         shape=replace(problem.shape, tension=tensions),
     )  # fmt: skip
     try:
-        found = solve_route(asked, LegRouter(asked, mission))
+        found = solve_route(asked, LegRouter(asked, mission), known)
         if not found.certificate.holds:
             return GeometryError("the path to the landing isn't clear")
         yaw = _turned_from(old, begins, headings_of(asked, found.path), found.path)

@@ -18,6 +18,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.space.flying_body import FlyingBody
 from viaspline.space.among.moving_solid import MovingSolid
+from viaspline.space.led_route import KnownWays
 from viaspline.space.meeting.gap_of_bodies import BodyPair
 from viaspline.space.online.flight import Flight
 from viaspline.space.online.flight_meeting import FlightMeeting
@@ -38,8 +39,9 @@ LEAST_ROOM_M: Final = 1.0
 
 
 def swerves(
-    flight: Flight, begins: Takeover, meeting: FlightMeeting, foreseen: Sequence[MovingSolid]
-) -> Iterator[NewLeg]:
+    flight: Flight, begins: Takeover, meeting: FlightMeeting, foreseen: Sequence[MovingSolid],
+    known: KnownWays,
+) -> Iterator[NewLeg]:  # fmt: skip
     """Paths from a take-over on beside what would be met, timed past all that moves.
 
     Args:
@@ -47,6 +49,8 @@ def swerves(
         begins: Where the new path begins.
         meeting: Whom it would meet.
         foreseen: All that is foreseen.
+        known: The ways of legs that were found for others of this flight: legs behind the first
+            two are the same.
     """
     ahead = still_ahead(flight, begins)
     one = next(each for each in foreseen if each.name == meeting.solid.name)
@@ -72,7 +76,7 @@ def swerves(
             via = SpatialVia(ASIDE, there + wide * aside, None)
             found = replan_in_space(
                 flight.known, replace(problem, shape=shape), flight.legs[-1], (via, *ahead),
-                begins, foreseen,
+                begins, foreseen, known,
             )  # fmt: skip
             if isinstance(found, NewLeg):
                 yield found
