@@ -94,7 +94,7 @@ def one_more(plan: vs.FleetPlan) -> None:
         found.append(1e3 * (time.process_time() - begin))
         begin = time.process_time()
         with suppress(vs.GaveUpError):
-            joined_fleet(grown_fleet(driven, member, path), nobody)
+            joined_fleet(grown_fleet(driven, member, path), driven.laws.packed, nobody)
             joined.append(1e3 * (time.process_time() - begin))
     print(
         f"one robot more: its crossings {np.median(found):.1f} ms, with its law and put into the "

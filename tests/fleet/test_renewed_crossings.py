@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.fleet.courses import FleetPath, courses_along
 from viaspline.fleet.crossings import crossings_of
-from viaspline.fleet.renewed_crossings import renewed_crossings
+from viaspline.fleet.renewed_crossings import patched_crossings, renewed_crossings
 
 ROBOTS = 8
 
@@ -48,6 +48,33 @@ def test_robots_may_have_come_behind_the_others(seed: int, count: int) -> None:
     found = renewed_crossings(crossings_of(old), old, courses, np.arange(stay, ROBOTS)).packed
     for key, values in crossings_of(courses).packed._asdict().items():
         assert np.array_equal(getattr(found, key), values), key
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.integers(0, 100_000), st.integers(1, 4), st.booleans())
+def test_what_is_not_put_among_each_other_yet_says_the_same(
+    seed: int, changes: int, is_asked: bool
+) -> None:
+    """Others change, or come behind them, one after the other; now and then boxes are asked for."""
+    rng = np.random.default_rng(seed)
+    paths = [spline(rng) for _ in range(ROBOTS)]
+    courses = courses_along([f"r{k}" for k in range(len(paths))], paths)
+    crossings = crossings_of(courses)
+    for _ in range(changes):
+        robot = int(rng.integers(0, len(paths) + 1))
+        paths[robot : robot + 1] = [spline(rng)]
+        old, courses = courses, courses_along([f"r{k}" for k in range(len(paths))], paths)
+        changed = np.array([robot])
+        fresh = crossings_of(courses, changed).packed
+        crossings = patched_crossings(crossings, old, courses, changed, fresh)
+        at_once = crossings_of(courses)
+        assert np.array_equal(crossings.robots, at_once.robots)
+        assert np.array_equal(crossings.span, at_once.span)
+        chosen = rng.random(len(paths)) < 0.5
+        for one, two in zip(crossings.boxes_of(chosen), at_once.boxes_of(chosen), strict=True):
+            assert np.array_equal(one, two)
+        assert not is_asked or crossings == at_once
+    assert crossings == at_once
 
 
 def test_a_robot_that_crosses_nobody_any_more_leaves_no_crossing() -> None:

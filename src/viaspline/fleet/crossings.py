@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.patched_crossings import PatchedCrossings, boxes_of_robots
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet import packed_pieces as columns
 from viaspline.kernels.fleet.joined_boxes import joined_boxes
@@ -33,10 +35,50 @@ class FleetCrossings(ComparedByValue):
     """Pairs of places on two paths at which two robots would be too near each other.
 
     Attributes:
-        packed: As kernels see them.
+        parts: As kernels see them, or those from before and those that are found anew.
     """
 
-    packed: PackedCrossings
+    parts: PackedCrossings | PatchedCrossings
+
+    @cached_property
+    def packed(self) -> PackedCrossings:
+        """As kernels see them."""
+        if isinstance(self.parts, PackedCrossings):
+            return self.parts
+        return self.parts.merged()
+
+    @property
+    def robots(self) -> Ints:
+        """The two robots of each crossing, (c, 2); what doesn't ask for boxes takes these."""
+        return self.parts.robots
+
+    @property
+    def span(self) -> Floats:
+        """Where each crossing is along both paths [m], (c, 4); see ``PackedCrossings``."""
+        return self.parts.span
+
+    def patched(self, fresh: PackedCrossings, is_changed: Flags, moved: Ints) -> FleetCrossings:
+        """With those of some robots found anew; see ``PatchedCrossings``.
+
+        Args:
+            fresh: The crossings of these robots.
+            is_changed: Which robots these are, (n,).
+            moved: By how much the numbers of each robot's cells have changed since before, (n,).
+        """
+        if isinstance(self.parts, PatchedCrossings) and "packed" not in self.__dict__:
+            found = self.parts.patched(fresh, is_changed, moved)
+        else:
+            found = PatchedCrossings.of(self.packed, fresh, is_changed, moved)
+        return FleetCrossings(found.merged() if found.has_many else found)
+
+    def boxes_of(self, chosen: Flags) -> PackedCrossings:
+        """All crossings, without the boxes of any but some robots, (n,)."""
+        if isinstance(self.parts, PackedCrossings):
+            return boxes_of_robots(self.parts, chosen)
+        return self.parts.boxes_of(chosen)
+
+    def _said(self) -> tuple[object, ...]:
+        return (self.packed,)
 
 
 def crossings_of(

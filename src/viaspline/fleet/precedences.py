@@ -11,7 +11,6 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.crossing_leaders import crossing_leaders
-from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.passing_order import passing_gaps
 
 TIGHT_S = 1e-3
@@ -55,22 +54,22 @@ def precedences_of(
     leaders, _ = crossing_leaders(courses.packed, crossings.packed, laws.packed)
     waits = waits_at(courses, crossings, laws, alone, np.arange(len(courses.names)))
     driven = np.flatnonzero(drive_both(courses, crossings, laws))
-    return precedences_among(courses.names, crossings.packed, leaders, waits, driven)
+    return precedences_among(courses.names, crossings, leaders, waits, driven)
 
 
 def precedences_among(
-    names: tuple[str, ...], packed: PackedCrossings, leaders: Ints, waits: Floats, chosen: Ints
+    names: tuple[str, ...], crossings: FleetCrossings, leaders: Ints, waits: Floats, chosen: Ints
 ) -> tuple[Precedence, ...]:
     """Who passes first at some crossings.
 
     Args:
         names: Of the robots.
-        packed: The crossings.
+        crossings: The crossings.
         leaders: Who passes each of them first, (c,).
         waits: How much later it makes its second robot come [s], (c,).
         chosen: Which crossings are asked for, (k,).
     """
-    robots, span = packed.robots[chosen], packed.span[chosen]
+    robots, span = crossings.robots[chosen], crossings.span[chosen]
     later = (leaders[chosen] == robots[:, 1])[:, None]
     ranked = np.where(later, robots[:, ::-1], robots).tolist()
     places = np.where(later, span[:, [3, 0]], span[:, [1, 2]]).tolist()
@@ -85,7 +84,7 @@ def precedences_among(
 def drive_both(courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws) -> Flags:
     """Whether both robots of each crossing drive, (c,)."""
     drives = np.isfinite(laws.packed.arrive[courses.packed.first[1:] - 1])
-    robots = crossings.packed.robots
+    robots = crossings.robots
     both: Flags = drives[robots[:, 0]] & drives[robots[:, 1]]
     return both
 

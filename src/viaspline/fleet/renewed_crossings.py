@@ -8,7 +8,6 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.kernels.arrays import Ints
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
-from viaspline.kernels.fleet.renewed_boxes import renewed_boxes
 
 
 def renewed_crossings(
@@ -25,14 +24,15 @@ def renewed_crossings(
     Raises:
         GaveUpError: As ``crossings_of``.
     """
-    return put_among(before, old, courses, changed, crossings_of(courses, changed).packed)
+    fresh = crossings_of(courses, changed).packed
+    return FleetCrossings(patched_crossings(before, old, courses, changed, fresh).packed)
 
 
-def put_among(
+def patched_crossings(
     before: FleetCrossings, old: FleetCourses, courses: FleetCourses, changed: Ints,
     fresh: PackedCrossings,
 ) -> FleetCrossings:  # fmt: skip
-    """Crossings of which those of some robots are others.
+    """Crossings of which those of some robots are others, not put among each other yet.
 
     Args:
         before: As for ``renewed_crossings``, as are the next three.
@@ -44,6 +44,5 @@ def put_among(
     is_changed = np.zeros(len(courses.names), np.bool_)
     is_changed[changed] = True
     more = len(courses.names) - len(old.names)
-    kept = before.packed._replace(box_first=np.pad(before.packed.box_first, (0, more), "edge"))
     moved = courses.packed.first[:-1] - np.pad(old.packed.first[:-1], (0, more))
-    return FleetCrossings(PackedCrossings(*renewed_boxes(kept, fresh, is_changed, moved)))
+    return before.patched(fresh, is_changed, moved)

@@ -19,6 +19,7 @@ from viaspline.fleet.execution.changed_plans import add_robot, remove_robot, rer
 from viaspline.fleet.execution.driven_fleet import driven_fleet_of
 from viaspline.fleet.execution.fleet_orders import orders_of
 from viaspline.fleet.execution.left_fleet import fleet_without
+from viaspline.fleet.robots_at_home import certify_all
 from viaspline.mission.fleet.fleet import FleetMember
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -103,6 +104,29 @@ def test_a_robot_is_sent_elsewhere_and_nothing_of_the_others_changes() -> None:
     assert nearest(other) >= 2.0
     with pytest.raises(GeometryError, match="no robot 'r7'"):
         reroute_robot(plan, member("r7", ROUTES[0]))
+
+
+@given(seed=st.integers(0, 10_000), count=st.integers(2, 7), wide=st.sampled_from([4.0, 40.0]))
+@settings(max_examples=10, deadline=None)
+def test_what_is_proven_of_a_plan_that_was_changed_is_what_is_proven_of_it_as_a_whole(
+    seed: int, count: int, wide: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    ways = [
+        {"start": [x, -wide], "goal": [x + float(rng.uniform(-1.5, 1.5)), wide]}
+        for x in (6.0 * k for k in range(count + 1))
+    ]
+    plan = vs.plan_fleet(fleet(*ways[:-1]))
+    for change in (add_robot, reroute_robot):
+        name = "new" if change is add_robot else f"r{int(rng.integers(count))}"
+        try:
+            other = change(plan, member(name, ways[-1]))
+        except PlanningError:
+            continue
+        whole = certify_all(other.fleet, other.courses, other.laws)
+        assert other.certificate.holds
+        assert other.certificate.separation == pytest.approx(whole.separation, abs=1e-3)
+        assert other.certificate.repeats is None
 
 
 @given(seed=st.integers(0, 10_000), count=st.integers(2, 10), which=st.integers(0, 9))

@@ -80,7 +80,7 @@ def with_newcomer(
     laws = expected_laws(fleet, state, leaves, grown.crossed()[0])
     let_in = LetIn(state.packed.progress, state.packed.promised, state.out)
     try:
-        return joined_fleet(grown.among(laws), let_in)
+        return joined_fleet(grown, laws, let_in)
     except GaveUpError:
         return None
 

@@ -11,12 +11,14 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.courses import AnyPlan
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, rounds_of
 from viaspline.fleet.execution.fleet_orders import index_of
-from viaspline.fleet.execution.grown_fleet import grown_fleet
+from viaspline.fleet.execution.grown_certificate import grown_certificate
+from viaspline.fleet.execution.grown_fleet import GrownFleet, grown_fleet
 from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
 from viaspline.fleet.execution.left_fleet import fleet_without
 from viaspline.fleet.execution.renewed_precedences import renewed_precedences
 from viaspline.fleet.execution.ways_from_rest import check_member, laid_from_rest
 from viaspline.fleet.execution.ways_in_the_air import laid_from_hover
+from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.laying.resting_places import RestingPlaces, rests_of
@@ -127,12 +129,13 @@ def remove_robot(plan: FleetPlan, name: str) -> FleetPlan:
     if name in plan.names:
         driven = fleet_without(driven, plan.names.index(name))
     plans = {one: it for one, it in plan.plans.items() if one != name}
-    rides = _rides(driven, plan, name)
+    rides = _rides_left(driven, plan, name)
     crossings = ordered_crossings(driven.courses, driven.crossings, driven.laws)
     precedences = precedences_of(driven.courses, crossings, driven.laws, rides.laws)
     driven = replace(driven, crossings=crossings)
     fleet = Fleet.of(members, plan.fleet.separation_m)
-    return _planned(plan, fleet, driven, plans, rides, precedences)
+    certificate = certify_all(fleet, driven.courses, driven.laws)
+    return _planned(plan, fleet, driven, plans, rides, precedences, certificate)
 
 
 def _check_nothing_moves(plan: FleetPlan) -> None:
@@ -152,15 +155,16 @@ def _with(plan: FleetPlan, member: FleetMember, members: Sequence[FleetMember]) 
     laid = _laid(plan, member)
     count = len(plan.names)
     nowhere = LetIn(np.full(count, np.inf), np.zeros(count), np.zeros(count, np.bool_))
-    grown = joined_fleet(grown_fleet(driven, member, laid), nowhere)
+    grown = joined_fleet(grown_fleet(driven, member, laid), driven.laws.packed, nowhere)
     joined = grown.fleet
     robot = joined.names.index(member.name)
-    rides = _rides(joined, plan, member.name)
+    rides = _joined_rides(grown, plan)
     law = timed_trajectory(laid.trajectory, joined.courses, rides, joined.laws, robot)
     plans = {**plan.plans, member.name: replace(laid, trajectory=law)}
     crossings, precedences = renewed_precedences(plan, grown, rides.laws)
-    joined = replace(joined, crossings=crossings)
-    return _planned(plan, _asked(plan, members, member), joined, plans, rides, precedences)
+    joined, fleet = replace(joined, crossings=crossings), _asked(plan, members, member)
+    certificate = grown_certificate(plan, fleet, joined, robot)
+    return _planned(plan, fleet, joined, plans, rides, precedences, certificate)
 
 
 def _asked(plan: FleetPlan, members: Sequence[FleetMember], member: FleetMember) -> Fleet:
@@ -183,7 +187,9 @@ def _laid(plan: FleetPlan, member: FleetMember) -> AnyPlan:
         tuple(
             rest
             for one in others
-            for rest in rests_of(one, reaches.get(one.name, one.mission.robot.outer_radius + half))
+            for rest in rests_of(
+                one, reaches.get(one.name) or one.mission.robot.outer_radius + half
+            )
         )
     )
     out = [one.name for one in plan.not_served if one.name != member.name]
@@ -198,30 +204,32 @@ def _driven(plan: FleetPlan) -> DrivenFleet:
     )  # fmt: skip
 
 
-def _rides(driven: DrivenFleet, before: FleetPlan, changed: str) -> FleetRides:
-    """How robots drive alone; all but one as before."""
-    first, rides = driven.courses.packed.first, driven.rides
-    stay = (set(before.names) & set(driven.names)) - {changed}  # in the order that they were in
-    keeps, kept = (
-        np.array([name in stay for name in names], np.bool_)
-        for names in (driven.names, before.names)
+def _rides_left(driven: DrivenFleet, before: FleetPlan, gone: str) -> FleetRides:
+    """How robots drive alone that are left when one is taken out of a plan."""
+    kept = np.array([name != gone for name in before.names], np.bool_)
+    nodes = np.repeat(kept, np.diff(before.courses.packed.first))
+    arrive, leave, speed, timed = before.rides.laws.packed
+    laws = PackedLaws(arrive[nodes], leave[nodes], speed[nodes], timed[kept])
+    return FleetRides(driven.rides, before.rides.alone[kept], FleetLaws(laws))
+
+
+def _joined_rides(grown: GrownFleet, before: FleetPlan) -> FleetRides:
+    """How robots drive alone with one of them more, or with one on another path."""
+    fleet, robot, at = grown.fleet, grown.robot, grown.at
+    mine = slice(*fleet.courses.packed.first[robot : robot + 2].tolist())
+    rides, old = fleet.rides, before.rides.laws.packed
+    goes = rides.depart[robot] + np.cumsum(rides.lasts[mine] + rides.stays[mine])
+    goes -= rides.lasts[mine]
+    leave = goes.copy()
+    leave[-1] = np.inf
+    laws = PackedLaws(
+        at.by_node(old.arrive, goes - rides.stays[mine]),
+        at.by_node(old.leave, leave),
+        at.by_node(old.speed, np.sqrt(rides.square[mine])),
+        at.by_robot(old.is_timed, np.ones(1, np.bool_)),
     )
-    nodes = np.repeat(keeps, np.diff(first))
-    known = np.repeat(kept, np.diff(before.courses.packed.first))
-    alone = np.empty(len(keeps))
-    alone[keeps] = before.rides.alone[kept]
-    arrive, leave, speed = (np.empty(len(nodes)) for _ in range(3))
-    for now, was in zip((arrive, leave, speed), before.rides.laws.packed[:3], strict=True):
-        now[nodes] = was[known]
-    for robot in np.flatnonzero(~keeps).tolist():
-        mine = slice(int(first[robot]), int(first[robot + 1]))
-        goes = rides.depart[robot] + np.cumsum(rides.lasts[mine] + rides.stays[mine])
-        goes -= rides.lasts[mine]
-        alone[robot] = goes[-1] - rides.depart[robot]
-        arrive[mine], leave[mine] = goes - rides.stays[mine], goes
-        leave[mine.stop - 1], speed[mine] = np.inf, np.sqrt(rides.square[mine])
-    timed = np.ones(len(keeps), np.bool_)
-    return FleetRides(rides, alone, FleetLaws(PackedLaws(arrive, leave, speed, timed)))
+    alone = at.by_robot(before.rides.alone, goes[-1:] - rides.depart[robot])
+    return FleetRides(rides, alone, FleetLaws(laws))
 
 
 def _patrols(
@@ -252,10 +260,10 @@ def _planned(
     plans: Mapping[str, AnyPlan],
     rides: FleetRides,
     precedences: tuple[Precedence, ...],
+    certificate: FleetCertificate,
 ) -> FleetPlan:
-    """The plan of a fleet that was changed, proven anew as a whole."""
+    """The plan of a fleet that was changed."""
     patrols = _patrols(before, plans, driven)
-    certificate = certify_all(fleet, driven.courses, driven.laws)
     if patrols is not None:
         certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
     names = [one.name for one in fleet.fleet]

@@ -109,7 +109,7 @@ def check_settled(fleet: DrivenFleet, leaders: Ints) -> None:
     Raises:
         GeometryError: There is one.
     """
-    crossings = fleet.crossings.packed
+    crossings = fleet.crossings
     if (leaders == UNSETTLED).any():
         c = int(np.flatnonzero(leaders == UNSETTLED)[0])
         one, two = (fleet.names[r] for r in crossings.robots[c])

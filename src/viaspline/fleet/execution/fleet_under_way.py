@@ -186,13 +186,13 @@ class FleetUnderWay:
         met = np.union1d(grown.crossed()[0], self._patrols)
         laws = expected_laws(fleet, state, leaves, met)
         try:
-            changed = self._grown(joined_fleet(grown.among(laws), let_in))
+            changed = self._grown(joined_fleet(grown, laws, let_in))
         except GeometryError:  # too tight for robots that stop short: it lets all others pass first
             laws = expected_laws(fleet, state, leaves)
             ends = laws.arrive[fleet.courses.packed.first[1:] - 1]
             last = float(ends[np.isfinite(ends)].max(initial=self.now))
             grown = grown_fleet(fleet, _departing(member, last), plan, off_start)
-            changed = self._grown(joined_fleet(grown.among(laws), let_in))
+            changed = self._grown(joined_fleet(grown, laws, let_in))
         changed = replace(changed, missions=missions.with_way(member, plan))
         return changed._let_out(member).told(event)
 

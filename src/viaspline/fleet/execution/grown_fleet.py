@@ -5,7 +5,7 @@ Tested through ``fleet/execution/test_grown_orders`` and ``fleet/execution/test_
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -15,7 +15,7 @@ from viaspline.fleet.courses import AnyPlan, FleetCourses, courses_of
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.renewed_crossings import put_among
+from viaspline.fleet.renewed_crossings import patched_crossings
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.packed_courses import PackedCourses
@@ -25,6 +25,9 @@ from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.mission.fleet.fleet import FleetMember
 
 Value = TypeVar("Value", bound=np.generic)
+
+NO_LAWS = FleetLaws(PackedLaws(*np.empty((3, 0)), np.empty(0, np.bool_)))
+"""Of robots of which none is timed yet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +58,7 @@ class GrownFleet:
     """A fleet with a robot that has a new path.
 
     Attributes:
-        fleet: With that path.
+        fleet: With that path, and without any laws until the robot is timed.
         at: Where the robot is in it.
         fresh: The crossings of the fleet, with no boxes but those of the robot's own.
         number: The number that each crossing from before has now; -1 if it isn't there any more,
@@ -80,23 +83,25 @@ class GrownFleet:
         each = np.arange(len(robots))
         return robots[each, 1 - side], spans[each, side], spans[each, 1 - side]
 
-    def among(self, laws: PackedLaws) -> GrownFleet:
-        """With laws of the others, by the nodes that they had before; the robot has none."""
+    def among(self, laws: PackedLaws) -> PackedLaws:
+        """Laws of the others, by the nodes that they had before, and none of the robot.
+
+        They are arrays of their own.
+        """
         nodes = np.diff(self.fleet.courses.packed.first)[self.robot]
         never, nothing = np.full(nodes, np.inf), np.zeros(nodes)
-        none = PackedLaws(
+        return PackedLaws(
             arrive=self.at.by_node(laws.arrive, never),
             leave=self.at.by_node(laws.leave, never),
             speed=self.at.by_node(laws.speed, nothing),
             is_timed=self.at.by_robot(laws.is_timed, np.zeros(1, np.bool_)),
         )
-        return replace(self, fleet=replace(self.fleet, laws=FleetLaws(none)))
 
 
 def grown_fleet(
     fleet: DrivenFleet, member: FleetMember, plan: AnyPlan, off_start: float = 0.0
 ) -> GrownFleet:
-    """A fleet with one robot more, or with one that has another path, which has no law yet.
+    """A fleet with one robot more, or with one that has another path; no robot has a law in it yet.
 
     Args:
         fleet: Before.
@@ -112,25 +117,24 @@ def grown_fleet(
     at = RobotPlace(robot, int(old.first[robot]), int(old.first[min(robot + 1, count)]))
     courses = _joined_courses(at, fleet.courses, fresh)
     found = crossings_of(courses, np.array([robot])).packed
-    crossings = put_among(fleet.crossings, fleet.courses, courses, np.array([robot]), found)
+    changed = np.array([robot])
+    crossings = patched_crossings(fleet.crossings, fleet.courses, courses, changed, found)
     rides = _joined_rides(at, fleet.rides, rides_of([member], [plan], fresh).packed)
     rounds, lead_ins = (
         None if one is None else at.by_robot(one, np.zeros(1))
         for one in (fleet.rounds, fleet.lead_ins)
     )
-    was, now = fleet.crossings.packed.robots, crossings.packed.robots
+    was, now = fleet.crossings.robots, crossings.robots
     is_fresh = _takes_part(now, robot)
     number = np.full(len(was), -1)
     number[~_takes_part(was, robot)] = np.flatnonzero(~is_fresh)
     own = found._replace(
         robots=now,
-        span=crossings.packed.span,
+        span=crossings.span,
         crossing=np.flatnonzero(is_fresh)[found.crossing].astype(np.int32),
     )
-    grown = replace(
-        fleet, courses=courses, crossings=crossings, rides=rides, rounds=rounds, lead_ins=lead_ins
-    )
-    return GrownFleet(grown, at, own, number).among(fleet.laws.packed)
+    grown = DrivenFleet(courses, crossings, NO_LAWS, rides, fleet.separation, rounds, lead_ins)
+    return GrownFleet(grown, at, own, number)
 
 
 def _takes_part(robots: Ints, robot: int) -> Flags:

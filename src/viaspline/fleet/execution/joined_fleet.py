@@ -39,7 +39,7 @@ class LetIn:
     stands: Flags
 
 
-def joined_fleet(grown: GrownFleet, let_in: LetIn) -> GrownFleet:
+def joined_fleet(grown: GrownFleet, laws: PackedLaws, let_in: LetIn) -> GrownFleet:
     """A fleet whose robot with a new path is timed along it.
 
     It is timed among the others, none of whose laws changes, and so that it passes nobody before
@@ -47,8 +47,9 @@ def joined_fleet(grown: GrownFleet, let_in: LetIn) -> GrownFleet:
     period of their laps that are laid out begins there: what comes after that comes again.
 
     Args:
-        grown: With the path, and with laws of those that it crosses, and of patrols: when they are
-            expected where.
+        grown: With the path.
+        laws: Of those that it crosses, and of patrols: when they are expected where, by the nodes
+            that they had before.
         let_in: Where the others may be already.
 
     Raises:
@@ -64,8 +65,9 @@ def joined_fleet(grown: GrownFleet, let_in: LetIn) -> GrownFleet:
     depart = float(fleet.rides.depart[robot])
     boxes = _own_boxes(grown.fresh, robot)
     passages = passages_of(fleet.courses.packed, boxes)
+    among = grown.among(laws)
     for _ in range(MAX_ROUNDS):
-        timed = _timed(fleet, robot, depart, boxes, passages)
+        timed = _timed(fleet, among, robot, depart, boxes, passages)
         wait = 0.0
         for k in inside:
             leaves = _goes(timed, int(others[k]), float(theirs[k, 1]))
@@ -135,13 +137,14 @@ def _own_boxes(crossings: PackedCrossings, robot: int) -> PackedCrossings:
 
 
 def _timed(
-    fleet: DrivenFleet, robot: int, depart: float, crossings: PackedCrossings,
+    fleet: DrivenFleet, laws: PackedLaws, robot: int, depart: float, crossings: PackedCrossings,
     passages: PackedPassages,
 ) -> DrivenFleet:  # fmt: skip
     """The fleet with the law of a robot that sets out at some time, as early as it can.
 
     Args:
         fleet: In which it has no law.
+        laws: Of the others; that of the robot is written to.
         robot: Its number.
         depart: When it sets out [s].
         crossings: With its boxes.
@@ -149,9 +152,8 @@ def _timed(
     """
     departs = fleet.rides.depart.copy()
     departs[robot] = depart
-    rides, old = fleet.rides._replace(depart=departs), fleet.laws.packed
-    laws = PackedLaws(old.arrive.copy(), old.leave.copy(), old.speed.copy(), old.is_timed.copy())
-    courses = fleet.courses.packed
+    rides, courses = fleet.rides._replace(depart=departs), fleet.courses.packed
+    laws.is_timed[robot] = False  # whatever it was timed before
     (box,) = timed_in_order(courses, crossings, passages, rides, laws, np.array([robot]))
     if box != CLEAR:
         place = float(courses.distance[crossings.cell[box]])

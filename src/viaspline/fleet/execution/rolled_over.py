@@ -151,7 +151,7 @@ def _a_period_later(fleet: DrivenFleet, since: Floats, shift: Floats) -> dict[in
 
     What a robot passes before its first lap doesn't come again.
     """
-    packed = fleet.crossings.packed
+    packed = fleet.crossings
     later: dict[tuple[int, int], list[int]] = {}
     for c, pair in enumerate(packed.robots.tolist()):
         later.setdefault((pair[0], pair[1]), []).append(c)

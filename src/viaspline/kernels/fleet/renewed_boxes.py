@@ -15,25 +15,37 @@ from viaspline.kernels.growable import new_floats, new_steps
 from viaspline.kernels.jit import inlined, inner, kernel
 
 
-@inner
-def _merged_pairs(
-    kept: PackedCrossings, fresh: PackedCrossings, is_changed: Flags
+@kernel
+def merged_pairs(
+    kept: Ints, kept_span: Floats, fresh: Ints, fresh_span: Floats, is_changed: Flags
 ) -> tuple[Ints, Floats, Ints, Ints]:
-    """Crossings by their robots, and the new number of each that was kept and of each fresh one."""
-    olds, news = kept.robots.shape[0], fresh.robots.shape[0]
+    """The crossings of a fleet by their robots: those that stay, and those that are found anew.
+
+    Args:
+        kept: The robots of crossings from before, (c, 2).
+        kept_span: Where these are [m], (c, 4).
+        fresh: The robots of crossings of those that have changed, with whomever, (f, 2).
+        fresh_span: Where these are [m], (f, 4).
+        is_changed: These robots, (n,).
+
+    Returns:
+        The robots and the span of each crossing that there is now, and the number of each from
+        before, -1 if it isn't there any more, and of each fresh one.
+    """
+    olds, news = kept.shape[0], fresh.shape[0]
     robots = np.empty((olds + news, 2), np.int64)
     span = np.empty((olds + news, 4))
     number, fresh_number = np.full(olds, -1), np.empty(news, np.int64)
     count, j = 0, 0
     for i in range(olds + 1):
-        if i < olds and (is_changed[kept.robots[i, 0]] or is_changed[kept.robots[i, 1]]):
+        if i < olds and (is_changed[kept[i, 0]] or is_changed[kept[i, 1]]):
             continue
-        while j < news and (i == olds or _is_before(fresh.robots, j, kept.robots, i)):
-            _put_crossing(robots, span, count, fresh, j)
+        while j < news and (i == olds or _is_before(fresh, j, kept, i)):
+            _put_crossing(robots, span, count, fresh, fresh_span, j)
             fresh_number[j] = count
             count, j = count + 1, j + 1
         if i < olds:
-            _put_crossing(robots, span, count, kept, i)
+            _put_crossing(robots, span, count, kept, kept_span, i)
             number[i] = count
             count += 1
     return robots[:count].copy(), span[:count].copy(), number, fresh_number
@@ -45,11 +57,13 @@ def _is_before(one: Ints, i: int, other: Ints, j: int) -> bool:
 
 
 @inlined
-def _put_crossing(robots: Ints, span: Floats, at: int, source: PackedCrossings, i: int) -> None:
+def _put_crossing(
+    robots: Ints, span: Floats, at: int, other_robots: Ints, other_span: Floats, i: int
+) -> None:
     for side in range(2):
-        robots[at, side] = source.robots[i, side]
+        robots[at, side] = other_robots[i, side]
     for k in range(4):
-        span[at, k] = source.span[i, k]
+        span[at, k] = other_span[i, k]
 
 
 @inlined
@@ -125,7 +139,9 @@ def renewed_boxes(
     Returns:
         The fields of ``PackedCrossings``, in their order.
     """
-    robots, span, number, fresh_number = _merged_pairs(kept, fresh, is_changed)
+    robots, span, number, fresh_number = merged_pairs(
+        kept.robots, kept.span, fresh.robots, fresh.span, is_changed
+    )
     loses = _loses_some(kept, number)
     first = _box_counts(kept, fresh, number, loses)
     boxes = first[first.size - 1]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 
@@ -10,6 +11,9 @@ from viaspline.errors import MissionError
 from viaspline.mission.clearances import ROUND_OFF_M
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.fleet.fleet_parts import FleetParts
+
+GIVEN: Final = frozenset(("name", "mission", "asked", "priority", "rest"))
+"""What is said of a robot that is given with its mission."""
 
 
 def changed_fleet(before: Fleet, members: Sequence[FleetMember], changed: FleetMember) -> Fleet:
@@ -42,18 +46,28 @@ def changed_fleet(before: Fleet, members: Sequence[FleetMember], changed: FleetM
 
 
 def sound_fleet_of(before: Fleet, members: Sequence[FleetMember]) -> Fleet:
-    """``Fleet.of(members)``, which are known to be sound together in the world of another fleet."""
-    asked = [
-        {
-            "name": one.name, "mission": None, "asked": one.mission, "priority": one.priority,
-            "rest": one.rest,
-        }
-        for one in members
-    ]  # fmt: skip
+    """``Fleet.of(members)``, which are known to be sound together in the world of another fleet.
+
+    What is said of those that are in that fleet already, as missions of their own, is taken over.
+    """
+    kept = {
+        id(one): spec
+        for one, spec in zip(before.members, before.fleet, strict=True)
+        if spec.model_fields_set == GIVEN and spec.asked is not None
+    }
+    asked = [kept.get(id(one)) or _as_given(one) for one in members]
     parts = FleetParts.model_validate(
         {"world": before.world, "separation_m": before.separation_m, "fleet": asked}
     )
     return Fleet.model_construct(parts.model_fields_set, **dict(parts))
+
+
+def _as_given(one: FleetMember) -> dict[str, object]:
+    """A robot as ``Fleet.of`` asks for it, its mission being read already."""
+    return {
+        "name": one.name, "mission": None, "asked": one.mission, "priority": one.priority,
+        "rest": one.rest,
+    }  # fmt: skip
 
 
 def _maybe_too_near(
@@ -62,9 +76,9 @@ def _maybe_too_near(
     """Those that may stand too near a robot at one of their ends: all that are asked at once."""
     if not members:
         return []
-    ends = [place for one in members for place in _ends(one)]
-    counts = [_count_ends(one) for one in members]
-    at = np.array(ends, float)
+    ends = [_ends(one) for one in members]
+    counts = [len(places) for places in ends]
+    at = np.array([place for places in ends for place in places], float)
     apart = np.array([np.hypot(*(at - place).T) for place in _ends(other)]).min(axis=0)
     nearest = np.minimum.reduceat(apart, np.cumsum([0, *counts[:-1]]))
     kept = separation + ROUND_OFF_M + _radius(other)
@@ -80,17 +94,9 @@ def _radius(one: FleetMember) -> float:
     return robot.outer_radius + (robot.tracking_error_m or 0.0)
 
 
-def _ends(one: FleetMember) -> Iterator[tuple[float, ...]]:
+def _ends(one: FleetMember) -> list[tuple[float, ...]]:
     """Where a route starts, and where it may end."""
     route = one.mission.route
-    yield route.start.at[:2]
     if route.goal is not None:
-        yield route.goal.at[:2]
-    elif route.via:
-        yield from (via.at[:2] for via in route.via)
-
-
-def _count_ends(one: FleetMember) -> int:
-    """How many places ``_ends`` has."""
-    route = one.mission.route
-    return 1 + (1 if route.goal is not None else len(route.via))
+        return [route.start.at[:2], route.goal.at[:2]]
+    return [route.start.at[:2], *[via.at[:2] for via in route.via]]
