@@ -68,7 +68,7 @@ def test_a_flight_is_added_and_nothing_of_the_others_changes() -> None:
     assert all(more.plans[name] is plan.plans[name] for name in plan.plans)
     assert nearest(more) >= SEPARATION - SLACK
     assert more.certificate.separation <= nearest(more) + SLACK
-    assert len(orders_of(driven_fleet_of(more)).sequence) > 0
+    assert len(orders_of(driven_fleet_of(more)).sequence()) > 0
     less = remove_robot(more, "new")
     for kind in ("courses", "crossings", "laws"):
         one, two = getattr(less, kind).packed, getattr(plan, kind).packed

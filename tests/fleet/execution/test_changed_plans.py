@@ -64,7 +64,7 @@ def test_a_robot_is_added_and_nothing_of_the_others_changes() -> None:
     nodes = len(plan.laws.packed.arrive)
     assert more.laws.packed.arrive[:nodes].tobytes() == plan.laws.packed.arrive.tobytes()
     assert nearest(more) >= 2.0
-    assert len(orders_of(driven_fleet_of(more)).sequence) > 0
+    assert len(orders_of(driven_fleet_of(more)).sequence()) > 0
     with pytest.raises(GeometryError, match="there is a robot 'r1' already"):
         add_robot(plan, member("r1", ROUTES[0]))
 

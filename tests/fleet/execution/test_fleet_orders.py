@@ -77,10 +77,11 @@ def test_a_ring_that_one_robot_has_left_is_none_any_more() -> None:
     lines = [((0.0, 0.0), (40.0, 0.0)), ((36.0, -8.0), (12.0, 34.0)), ((28.0, 34.0), (4.0, -8.0))]
     fleet, own = driven_on(lines), np.ones(3, np.bool_)
     for ring in (np.array([0, 2, 1]), np.array([1, 0, 2])):
-        orders = orders_led(fleet, ring, own, progress=np.array([40.0, 0.0, 0.0]))
-        assert sorted(orders.sequence.tolist()) == list(range(orders.packed.place.size))
+        come = np.array([40.0, 0.0, 0.0])
+        orders = orders_led(fleet, ring, own, progress=come)
+        assert sorted(orders.sequence(come).tolist()) == list(range(orders.packed.place.size))
         short = np.full(3, 0.05)
-        assert orders_led(fleet, ring, own, short, np.array([40.0, 0.0, 0.0])).packed.short[0] > 0.0
+        assert orders_led(fleet, ring, own, short, come).packed.short[0] > 0.0
 
 
 def test_a_ring_with_a_robot_that_never_gets_on_is_none() -> None:
@@ -106,7 +107,7 @@ def test_laws_that_meet_keep_no_order() -> None:
 def test_orders_of_laws_that_keep_apart_are_acyclic(seed: int, count: int) -> None:
     fleet = driven_on(timed_lines(seed, count))
     orders = orders_of(fleet)
-    assert sorted(orders.sequence.tolist()) == list(range(orders.packed.place.size))
+    assert sorted(orders.sequence().tolist()) == list(range(orders.packed.place.size))
     assert (orders.leaders >= 0).all()
 
 

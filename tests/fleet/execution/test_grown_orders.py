@@ -112,8 +112,10 @@ def test_they_are_those_of_the_whole_fleet_drawn_up_anew(
         return
     assert_same(one.orders.packed, two.orders.packed)
     assert_same(one.packed, two.packed)
-    for kind in ("leaders", "by_second", "sequence"):
+    for kind in ("leaders", "by_second"):
         assert getattr(one.orders, kind).tolist() == getattr(two.orders, kind).tolist()
+    come = one.packed.progress
+    assert one.orders.sequence(come).tolist() == two.orders.sequence(come).tolist()
 
 
 def assert_same(one: tuple[np.ndarray, ...], two: tuple[np.ndarray, ...]) -> None:

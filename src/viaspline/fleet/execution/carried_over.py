@@ -212,8 +212,9 @@ def _passed_too_early(
     Bars before ``head`` are open, (n,).
     """
     packed = orders.packed
-    here = np.flatnonzero(np.isfinite(progress)).tolist()
     ends = packed.first[1:]
+    here = np.flatnonzero(np.isfinite(progress) & (head < ends))
+    here = here[packed.place[head[here]] < promised[here]].tolist()
     let = [
         np.arange(head[r], head[r] + np.searchsorted(packed.place[head[r] : ends[r]], promised[r]))
         for r in here

@@ -15,7 +15,6 @@ from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
-from viaspline.kernels.fleet.order_flow import order_flow
 
 
 def died(state: FleetProgressState, robot: int, until: float) -> FleetProgressState:
@@ -39,8 +38,7 @@ def died(state: FleetProgressState, robot: int, until: float) -> FleetProgressSt
     open_bars(orders, packed)
     let_in = kept[_closed_at(state)[kept] < packed.promised[kept]]
     events = _told(state, robot, let_in)
-    sequence = _sequence(state) if kept.size else state.sequence
-    return replace(state, sequence=sequence, events=(*state.events, *events))
+    return replace(state, events=(*state.events, *events))
 
 
 def _told(state: FleetProgressState, robot: int, let_in: Ints) -> list[FleetEvent]:
@@ -54,21 +52,18 @@ def _told(state: FleetProgressState, robot: int, let_in: Ints) -> list[FleetEven
     return events
 
 
-def let_past_dead(state: FleetProgressState) -> FleetProgressState:
-    """The state in which who has come past a dead robot waits for it no more.
+def let_past_dead(state: FleetProgressState) -> None:
+    """Who has come past a dead robot waits for it no more.
 
     Args:
-        state: Of its own; it is written to.
+        state: It is written to.
     """
     packed = state.packed
     is_dead = packed.fixed & (packed.progress < np.inf)
-    freed = False
     for robot in np.flatnonzero(is_dead).tolist():
         crossings, others, is_near = _crossed(state, robot)
         past = ~is_near & (packed.leaders[crossings] == robot)
         packed.leaders[crossings[past]] = others[past]
-        freed |= bool(past.any())
-    return replace(state, sequence=_sequence(state)) if freed else state
 
 
 def hold_before_closed(state: FleetProgressState) -> None:
@@ -114,11 +109,3 @@ def _closed_at(state: FleetProgressState) -> Floats:
     has = np.flatnonzero(head < orders.first[1:])
     found[has] = orders.place[head[has]]
     return found
-
-
-def _sequence(state: FleetProgressState) -> Ints:
-    """The bars in an order in which they can be passed, as the leaders are now, (m,)."""
-    packed, orders = state.packed, state.orders.packed
-    heads = orders.first[:-1].copy()
-    sequence: Ints = order_flow(orders, packed.leaders, packed.progress, heads, packed.fixed)[0]
-    return sequence

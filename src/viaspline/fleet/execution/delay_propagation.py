@@ -39,7 +39,7 @@ class DelayPropagation:
             begin: When robots set out [s], (n,); all at 0 s if it isn't given.
         """
         begin = np.zeros(len(orders.names)) if begin is None else begin
-        return cls(orders, packed_links(orders.packed, orders.leaders, orders.sequence, begin))
+        return cls(orders, packed_links(orders.packed, orders.leaders, orders.sequence(), begin))
 
     def delays(self, name: str, seconds: float) -> Mapping[str, float]:
         """How much later robots arrive when one of them sets out later [s], by name.

@@ -17,6 +17,7 @@ from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.patrols.driven_laps import seams_of
 from viaspline.fleet.patrols.take_off_first import spans_before_laps
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.alone_laws import alone_laws
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
 
@@ -83,11 +84,7 @@ class DrivenFleet:
     @cached_property
     def alone(self) -> PackedLaws:
         """The laws of robots that set out at 0 s and never wait for another."""
-        first, rides = self.courses.packed.first, self.rides
-        spent = np.concatenate(([0.0], np.cumsum(rides.lasts + rides.stays)[:-1]))
-        arrive = spent - np.repeat(spent[first[:-1]], np.diff(first))
-        timed = np.ones(len(self.names), np.bool_)
-        return PackedLaws(arrive, arrive + rides.stays, np.sqrt(rides.square), timed)
+        return alone_laws(self.courses.packed.first, self.rides)
 
 
 def driven_fleet_of(plan: FleetPlan) -> DrivenFleet:

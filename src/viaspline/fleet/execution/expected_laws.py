@@ -14,7 +14,7 @@ import numpy as np
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.order_flow import expected_shifts, order_flow
+from viaspline.kernels.fleet.order_times import OrderTimes, order_times
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 
 
@@ -35,11 +35,11 @@ def expected_laws(
         chosen: Whose laws are asked for; the others have those that they had, (k,). None: all.
     """
     orders, packed = state.orders.packed, state.packed
-    shift = _shifts(state)
+    times = _times(state)
     alone, courses, stuck = fleet.alone, fleet.courses.packed, state.stuck(leaves)
     drives = np.flatnonzero(~state.out)
     asked = drives if chosen is None else np.intersect1d(drives, chosen)
-    behind_all = _last_arrival(fleet, state, shift) if (stuck[asked] >= 0).any() else 0.0
+    behind_all = _last_arrival(fleet, state, times) if (stuck[asked] >= 0).any() else 0.0
     old = fleet.laws.packed
     arrive, leave, speed = old.arrive.copy(), old.leave.copy(), old.speed.copy()
     if chosen is None:
@@ -47,7 +47,7 @@ def expected_laws(
     for robot in asked.tolist():
         nodes = slice(int(courses.first[robot]), int(courses.first[robot + 1]))
         bars = slice(int(orders.first[robot]), int(orders.first[robot + 1]))
-        later = _later(shift, state, robot)
+        later = _later(times, state, robot)
         if stuck[robot] >= 0:
             later[stuck[robot] - bars.start + 1 :] += behind_all
         along, places = courses.distance[nodes], orders.place[bars]
@@ -64,34 +64,34 @@ def expected_laws(
     return PackedLaws(arrive, leave, speed, ~state.out)
 
 
-def _shifts(state: FleetProgressState) -> Floats:
-    """When each robot would have set out to pass a bar when it does, without waits [s], (bars,).
+def _times(state: FleetProgressState) -> OrderTimes:
+    """When robots pass their bars.
 
-    Whoever never gets on is taken to be carried off: the sequence of the state may end before what
-    is behind it, and those who wait there would come never.
+    Whoever never gets on is taken to be carried off: those who wait there would come never.
     """
     orders, packed, out = state.orders.packed, state.packed, state.packed.fixed
-    sequence, head, begin = state.sequence, packed.head, packed.begin
+    head, begin, come = packed.head, packed.begin, packed.progress
     if out.any():
-        gone = np.where(out, np.inf, packed.progress)
-        sequence, _ = order_flow(orders, packed.leaders, gone, head, out)
+        come = np.where(out, np.inf, come)
         head, begin = np.where(out, orders.first[1:], head), np.where(out, -np.inf, begin)
-    shift: Floats = expected_shifts(orders, packed.leaders, sequence, head, begin)[0]
-    return shift
+    return order_times(orders, packed.leaders, come, head, out, begin)
 
 
-def _last_arrival(fleet: DrivenFleet, state: FleetProgressState, shift: Floats) -> float:
+def _last_arrival(fleet: DrivenFleet, state: FleetProgressState, times: OrderTimes) -> float:
     """When the last robot arrives of those that do [s]."""
-    last = [float(_later(shift, state, robot)[-1]) for robot in range(len(fleet.names))]
+    last = [float(_later(times, state, robot)[-1]) for robot in range(len(fleet.names))]
     ends = fleet.alone.arrive[fleet.courses.packed.first[1:] - 1] + last
     return float(ends[np.isfinite(ends)].max(initial=0.0))
 
 
-def _later(shift: Floats, state: FleetProgressState, robot: int) -> Floats:
+def _later(times: OrderTimes, state: FleetProgressState, robot: int) -> Floats:
     """How much later than its law alone a robot is after so many of its bars [s], (m + 1,)."""
-    first, packed = state.orders.packed.first, state.packed
-    own = shift[first[robot] : first[robot + 1]]
-    passed = int(packed.head[robot] - first[robot])
-    known = np.where(np.arange(len(own)) < passed, packed.begin[robot], own)
-    later: Floats = np.maximum.accumulate(np.concatenate(([packed.begin[robot]], known)))
+    first, end = state.orders.packed.first[robot : robot + 2].tolist()
+    later = np.full(end + 1 - first, np.inf)
+    until, at = int(times.reached[robot]), int(times.final[robot])
+    while at >= 0:
+        bar, before = times.bars[at].tolist()
+        later[bar + 1 - first : until + 1 - first] = times.delays[at, 1]
+        until, at = bar, before
+    later[: until + 1 - first] = times.begin[robot]
     return later

@@ -170,19 +170,19 @@ class FleetNavigator(FleetStanding):
         fleet, state = self._fleet, self._state.copied(time)
         packed, orders = state.packed, state.orders.packed
         robots, table, events = believed(fleet, state, given, self._margin)
-        state = let_past_dead(state)
+        let_past_dead(state)
         dwell(self._stations, state, self._short)
         hold_before_closed(state)
         before = packed.leaders.copy()
         swaps = np.isfinite(self._state.time) and floor(time) > floor(self._state.time)
-        grants, sequence = dispatch_step(
+        grants = dispatch_step(
             fleet.courses.packed, fleet.alone, orders, packed, robots, table,
-            state.sequence, bool(swaps), time,
+            bool(swaps), time,
         )  # fmt: skip
         events += swapped_events(fleet.names, before, packed.leaders, time)
         events += state.silences(SILENT_S, fleet.rides.depart)
         commands = commands_of(fleet, self._stations, state, grants, self._period)
-        state = replace(state, sequence=sequence, events=tuple(events))
+        state = replace(state, events=tuple(events))
         return commands, self._with(rolled_over(state, fleet, self._stations))
 
     def without(self, name: str) -> FleetNavigator:

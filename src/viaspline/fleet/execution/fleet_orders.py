@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,7 +12,8 @@ from viaspline.handed_in import check_kind
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.crossing_bars import crossing_bars, set_bar_times
 from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
-from viaspline.kernels.fleet.order_flow import expected_shifts, order_flow
+from viaspline.kernels.fleet.order_flow import order_flow
+from viaspline.kernels.fleet.order_times import OrderTimes, order_times
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 from viaspline.kernels.fleet.sorted_bars import sorted_bars
 
@@ -33,21 +34,27 @@ class FleetOrders:
             (c,).
         by_second: Whether the bars of the second robot of a crossing are made from its own boxes,
             else from the leader's, (c,).
-        sequence: All bars in an order in which they can be passed, (bars,); none as long as it
-            isn't known that there is one.
     """
 
     names: tuple[str, ...]
     packed: PackedOrders
     leaders: Ints
     by_second: Flags
-    sequence: Ints
+
+    def sequence(self, progress: Floats | None = None) -> Ints:
+        """Bars in an order in which they can be passed, (m,): all of them if there is no cycle.
+
+        Args:
+            progress: How far each robot has come [m], (n,); nowhere if it isn't given.
+        """
+        orders, count = self.packed, len(self.names)
+        come, none = np.zeros(count) if progress is None else progress, np.zeros(count, np.bool_)
+        rows, _ = order_flow(orders, self.leaders, come, orders.first[:-1].copy(), none)
+        return np.concatenate([np.empty(0, np.int64), *(np.arange(*row) for row in rows.tolist())])
 
     def arrivals(self, begin: Floats) -> Floats:
         """When robots arrive that set out at some times [s], less what they take alone, (n,)."""
-        orders = self.packed
-        heads = orders.first[:-1]
-        return expected_shifts(orders, self.leaders, self.sequence, heads, begin)[1]
+        return times_of(self.packed, self.leaders, begin).last
 
 
 def index_of(names: tuple[str, ...], name: str) -> int:
@@ -141,32 +148,48 @@ def orders_led(
         GeometryError: The orders have a cycle.
     """
     drawn = drawn_orders(fleet, leaders, by_second, short)
-    sequence, stuck = flow_of(drawn.packed, leaders, progress, fixed)
+    stuck = stuck_in(drawn.packed, leaders, progress, fixed)
     if (stuck >= 0).any():
         raise GeometryError(cycle_words(fleet.names, drawn.packed, stuck))
-    return replace(drawn, sequence=sequence)
+    return drawn
 
 
-def flow_of(
+def stuck_in(
     orders: PackedOrders, leaders: Ints, progress: Floats | None = None, fixed: Flags | None = None
-) -> tuple[Ints, Ints]:
-    """An order in which bars can be passed, and where robots are in a cycle or behind one.
+) -> Ints:
+    """The bar at which each robot is stuck that is in a cycle or behind one, or -1, (n,).
 
     Args:
         orders: With all bars.
         leaders: Who passes each crossing first, (c,).
         progress: As for ``orders_led``.
         fixed: As for ``orders_led``.
-
-    Returns:
-        All bars that are passed, (m,), and the bar at which each robot is stuck, or -1, (n,).
     """
     count = len(orders.length)
     stands = np.zeros(count, np.bool_) if fixed is None else fixed
     come = np.zeros(count) if progress is None else progress
-    sequence, stuck = order_flow(orders, leaders, come, orders.first[:-1].copy(), stands)
+    _, stuck = order_flow(orders, leaders, come, orders.first[:-1].copy(), stands)
     stuck[_held_up(orders, stuck, stands)] = -1
-    return sequence, stuck
+    return stuck
+
+
+def times_of(
+    orders: PackedOrders, leaders: Ints, begin: Floats, progress: Floats | None = None,
+    fixed: Flags | None = None,
+) -> OrderTimes:  # fmt: skip
+    """When robots pass their bars, as far as they get.
+
+    Args:
+        orders: With all bars.
+        leaders: Who passes each crossing first, (c,).
+        begin: When robots set out [s], (n,).
+        progress: As for ``orders_led``.
+        fixed: As for ``orders_led``.
+    """
+    count = len(orders.length)
+    stands = np.zeros(count, np.bool_) if fixed is None else fixed
+    come = np.zeros(count) if progress is None else progress
+    return order_times(orders, leaders, come, orders.first[:-1].copy(), stands, begin)
 
 
 def _held_up(orders: PackedOrders, stuck: Ints, fixed: Flags) -> Flags:
@@ -181,7 +204,7 @@ def _held_up(orders: PackedOrders, stuck: Ints, fixed: Flags) -> Flags:
 def drawn_orders(
     fleet: DrivenFleet, leaders: Ints, by_second: Flags, short: Floats | None = None
 ) -> FleetOrders:
-    """Orders with the bars of all crossings, which may have a cycle; there is no sequence yet.
+    """Orders with the bars of all crossings, which may have a cycle.
 
     Args:
         fleet: As for ``orders_led``, as are the others.
@@ -207,15 +230,16 @@ def drawn_orders(
         crossing=crossing,
         comes=np.empty(len(place)),
         other_comes=np.empty(len(place)),
-        since=np.empty(len(place), np.int64),
         robots=crossings.robots,
+        final=np.empty((len(leaders), 2)),
+        most=np.empty((len(leaders), 2)),
         may_lead=may_lead,
         length=lengths,
         vanishes=vanishes,
         short=np.zeros(len(fleet.names)) if short is None else short,
     )
     set_bar_times(courses, fleet.alone, orders)
-    return FleetOrders(fleet.names, orders, leaders, by_second, np.empty(0, np.int64))
+    return FleetOrders(fleet.names, orders, leaders, by_second)
 
 
 def ring_of(orders: PackedOrders, stuck: Ints) -> list[int]:

@@ -28,7 +28,6 @@ class FleetProgressState:
     Attributes:
         orders: Who waits for whom, as it was planned.
         packed: How far each robot has come and may go, and who passes each crossing first now.
-        sequence: Bars in an order in which they can be passed, as the leaders are, (m,).
         time: Of the last step [s]; minus infinity before the first one.
         speeds: As last reported [m/s], (n,).
         heard: When each robot was last believed [s], (n,).
@@ -49,7 +48,6 @@ class FleetProgressState:
 
     orders: FleetOrders
     packed: PackedDispatch
-    sequence: Ints
     time: float
     speeds: Floats
     heard: Floats
@@ -74,7 +72,7 @@ class FleetProgressState:
         out = ~fleet.laws.packed.is_timed
         packed.fixed[:] = out
         return cls(
-            orders, packed, orders.sequence, -np.inf, np.zeros(count), np.full(count, -np.inf),
+            orders, packed, -np.inf, np.zeros(count), np.full(count, -np.inf),
             np.zeros(count, np.bool_), np.zeros(count, np.bool_), out, np.zeros(count),
             np.zeros(count), np.zeros(count, np.int64), np.zeros(count, np.int64),
             np.full(count, np.inf), np.full(count, np.inf), fleet.rides.depart.copy(),

@@ -15,7 +15,7 @@ from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent
 from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
 from viaspline.fleet.execution.ways_from_rest import FleetMissions
-from viaspline.kernels.fleet.order_flow import expected_shifts
+from viaspline.kernels.fleet.order_times import order_times
 
 
 class FleetStanding:
@@ -82,14 +82,14 @@ class FleetStanding:
 
         Inertia is left out, so it is a little sooner than they will.
         """
-        state, orders = self._state, self._state.orders.packed
-        begin = np.where(state.packed.fixed, np.inf, state.packed.begin)
-        last = expected_shifts(
-            orders, state.packed.leaders, state.sequence, state.packed.head, begin
-        )[1]
+        packed, orders = self._state.packed, self._state.orders.packed
+        begin = np.where(packed.fixed, np.inf, packed.begin)
+        times = order_times(
+            orders, packed.leaders, packed.progress, packed.head, packed.fixed, begin
+        )
         ends = self._fleet.courses.packed.first[1:] - 1
-        arrive = last + self._fleet.alone.leave[ends]
-        arrive[self._state.stuck() >= 0] = np.inf
+        arrive = times.last + self._fleet.alone.leave[ends]
+        arrive[times.stuck >= 0] = np.inf
         if self._fleet.rounds is not None:
             arrive[self._fleet.rounds > 0.0] = np.inf
         return dict(zip(self.names, arrive.tolist(), strict=True))

@@ -29,9 +29,6 @@ def grown_orders(state: FleetProgressState, grown: GrownFleet, short: Floats) ->
         grown: With it and its law.
         short: As for ``orders_of``.
 
-    Returns:
-        Orders without a sequence.
-
     Raises:
         GeometryError: The laws keep no order in a crossing.
     """
@@ -51,5 +48,6 @@ def grown_orders(state: FleetProgressState, grown: GrownFleet, short: Floats) ->
         number = np.where(other_bars, -1, number)
     drawn = drawn_orders(replace(fleet, crossings=FleetCrossings(fresh)), leaders, by_second, short)
     kept = number >= 0
-    drawn.packed.may_lead[number[kept]] = planned.packed.may_lead[kept]
+    for key in ("may_lead", "final", "most"):
+        getattr(drawn.packed, key)[number[kept]] = getattr(planned.packed, key)[kept]
     return replace(drawn, packed=renewed_bars(planned.packed, number, drawn.packed))

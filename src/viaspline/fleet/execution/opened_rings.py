@@ -12,11 +12,11 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.execution.fleet_orders import (
     FleetOrders,
     cycle_words,
-    flow_of,
     ring_of,
+    stuck_in,
+    times_of,
 )
 from viaspline.kernels.arrays import Flags, Floats, Ints
-from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 
 
@@ -29,7 +29,7 @@ def without_rings(
     Only such orders are made others whose leader hasn't been let into the crossing.
 
     Args:
-        orders: With all bars; whatever sequence they have isn't looked at.
+        orders: With all bars.
         departs: When each robot departs [s], (n,).
         progress: As for ``orders_led``.
         fixed: As there.
@@ -40,23 +40,26 @@ def without_rings(
         GeometryError: The orders have a cycle, and so have the others that were tried.
     """
     packed, leaders, by_second = orders.packed, orders.leaders, orders.by_second
-    sequence, stuck = flow_of(packed, leaders, progress, fixed)
+    sets_out = np.where(np.isfinite(departs), departs, 0.0)
+    stuck = stuck_in(packed, leaders, progress, fixed)
     may_go = np.zeros(len(stuck)) if promised is None else promised
     while (stuck >= 0).any():
+        before = times_of(packed, leaders, sets_out, progress, fixed).reached.sum()
         best = None
         for crossing, robot in _others_first(packed, leaders, stuck, may_go):
             other = leaders.copy()
             other[crossing] = robot
-            passed, left = flow_of(packed, other, progress, fixed)
-            late = _lateness(packed, other, passed, departs)
-            if best is None or (-len(passed), late) < best[:2]:
-                best = (-len(passed), late, other, passed, left)
-        if best is None or len(best[3]) <= len(sequence):  # no other order lets them get farther
+            times = times_of(packed, other, sets_out, progress, fixed)
+            passed, late = int(times.reached.sum()), float((times.last - sets_out).sum())
+            if best is None or (-passed, late) < best[:2]:
+                best = (-passed, late, other)
+        if best is None or -best[0] <= before:  # no other order lets them get farther
             raise GeometryError(cycle_words(orders.names, packed, stuck))
-        _, _, other, sequence, stuck = best
+        other = best[2]
+        stuck = stuck_in(packed, other, progress, fixed)
         by_second = by_second | (other != leaders)  # bars of its own boxes are there in any case
         leaders = other
-    return FleetOrders(orders.names, packed, leaders, by_second, sequence)
+    return FleetOrders(orders.names, packed, leaders, by_second)
 
 
 def _others_first(
@@ -76,10 +79,3 @@ def _others_first(
         if is_out and orders.may_lead[crossing, side]:
             found.append((crossing, robot))
     return found
-
-
-def _lateness(orders: PackedOrders, leaders: Ints, sequence: Ints, begin: Floats) -> float:
-    """How much later than alone all robots get as far as they do, together [s]."""
-    sets_out = np.where(np.isfinite(begin), begin, 0.0)
-    last = expected_shifts(orders, leaders, sequence, orders.first[:-1].copy(), sets_out)[1]
-    return float((last - sets_out).sum())

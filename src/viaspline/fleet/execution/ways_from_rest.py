@@ -161,20 +161,21 @@ def rests_now(
         name: The robot that is laid among them, which isn't one of them.
     """
     found: list[RestingPlace] = []
-    stuck = state.stuck()
+    stuck, reaches = state.stuck().tolist(), fleet.courses.packed.reach.tolist()
+    left = (state.places > SAME_M).tolist()
+    is_gone, out = (state.packed.progress == np.inf).tolist(), state.out.tolist()
     for robot, other in enumerate(fleet.names):
-        if other == name or state.packed.progress[robot] == np.inf:
+        if other == name or is_gone[robot]:
             continue
-        reach = float(fleet.courses.packed.reach[robot])
-        if state.out[robot]:
-            found += _anywhere(fleet, state, robot, reach)
+        if out[robot]:
+            found += _anywhere(fleet, state, robot, reaches[robot])
             continue
-        rests = rests_of(missions.members[other], reach)
-        has_left = state.places[robot] > SAME_M
-        found += [one for one in rests if not (has_left and one.kind == "start")]
+        for one in rests_of(missions.members[other], reaches[robot]):
+            if not (left[robot] and one.kind == "start"):
+                found.append(one)
         if stuck[robot] >= 0:
             x, y = _place_at(fleet, robot, float(state.places[robot]))
-            found.append(RestingPlace(other, "start", (x, y), reach))
+            found.append(RestingPlace(other, "start", (x, y), reaches[robot]))
     return RestingPlaces(tuple(found))
 
 

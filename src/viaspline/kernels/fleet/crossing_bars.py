@@ -18,7 +18,7 @@ from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_orders import PackedOrders
-from viaspline.kernels.jit import inlined, kernel
+from viaspline.kernels.jit import kernel
 
 
 @kernel
@@ -67,40 +67,20 @@ def crossing_bars(
     return who[:count], where[:count]
 
 
-@inlined
-def _bar_near(place: Floats, begin: int, end: int, bar: int, passed: float) -> int:
-    """The first bar of a robot that isn't before a place, sought from one nearby on."""
-    while bar < end and place[bar] < passed:
-        bar += 1
-    while bar > begin and place[bar - 1] >= passed:
-        bar -= 1
-    return bar
-
-
-@inlined
-def first_bar(place: Floats, begin: int, end: int, passed: float) -> int:
-    """The first bar of a robot that isn't before a place."""
-    while begin < end:
-        middle = (begin + end) // 2
-        if place[middle] < passed:
-            begin = middle + 1
-        else:
-            end = middle
-    return begin
-
-
 @kernel
 def set_bar_times(courses: PackedCourses, alone: PackedLaws, orders: PackedOrders) -> None:
-    """Reckon when robots that never wait come to bars, and past them.
+    """Reckon when robots that never wait come to bars, and past them, and bounds of crossings.
 
     Args:
         courses: PackedCourses.
         alone: The laws of robots that set out at 0 and never wait for another.
-        orders: ``comes``, ``other_comes`` and ``since`` are written to.
+        orders: ``comes``, ``other_comes``, ``final`` and ``most`` are written to.
     """
     count = orders.robots.shape[0]
+    for c in range(count):
+        for side in range(2):
+            orders.final[c, side] = orders.most[c, side] = -np.inf
     nodes = np.full((count, 2), -1)  # of the other, by the bar before of the crossing and side
-    bars = np.full((count, 2), -1)  # and its bars
     for robot in range(orders.length.size):
         k, last = courses.first[robot], courses.first[robot + 1] - 1
         for b in range(orders.first[robot], orders.first[robot + 1]):
@@ -110,14 +90,13 @@ def set_bar_times(courses: PackedCourses, alone: PackedLaws, orders: PackedOrder
             k = node_near(courses.distance, courses.first[robot], last, k, place)
             orders.comes[b] = max(comes_in_cell(courses, alone, robot, k, place), 0.0)
             first, end = courses.first[other], courses.first[other + 1] - 1
-            low, high = orders.first[other], orders.first[other + 1]
             if nodes[c, side] < 0:
                 nodes[c, side] = node_before(courses.distance, first, end, passed)
-                bars[c, side] = first_bar(orders.place, low, high, passed)
             else:
                 nodes[c, side] = node_near(courses.distance, first, end, nodes[c, side], passed)
-                bars[c, side] = _bar_near(orders.place, low, high, bars[c, side], passed)
             orders.other_comes[b] = max(
                 comes_in_cell(courses, alone, other, nodes[c, side], passed), 0.0
             )
-            orders.since[b] = bars[c, side] - 1 if bars[c, side] > low else -1
+            orders.final[c, side] = max(orders.final[c, side], orders.passed[b])
+            later = orders.other_comes[b] - orders.comes[b]
+            orders.most[c, side] = max(orders.most[c, side], later)

@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 from viaspline.kernels.jit import inlined, inner, kernel
 
@@ -63,10 +62,75 @@ class PackedLinks(NamedTuple):
 
 
 @inlined
-def _since(orders: PackedOrders, bar: int) -> int:
-    """The bar before which the other robot opens a bar, or one less than its first."""
-    since = orders.since[bar]
-    return since if since >= 0 else orders.first[orders.other[bar]] - 1
+def _bar_near(place: Floats, begin: int, end: int, bar: int, passed: float) -> int:
+    """The first bar of a robot that isn't before a place, sought from one nearby on."""
+    while bar < end and place[bar] < passed:
+        bar += 1
+    while bar > begin and place[bar - 1] >= passed:
+        bar -= 1
+    return bar
+
+
+@inlined
+def _first_bar(place: Floats, begin: int, end: int, passed: float) -> int:
+    """The first bar of a robot that isn't before a place."""
+    while begin < end:
+        middle = (begin + end) // 2
+        if place[middle] < passed:
+            begin = middle + 1
+        else:
+            end = middle
+    return begin
+
+
+@inner
+def _bars_before(orders: PackedOrders) -> Ints:
+    """The bar before which the other robot opens each bar, or one less than its first, (bars,)."""
+    since = np.empty(orders.place.size, np.int64)
+    bars = np.full((orders.robots.shape[0], 2), -1)  # of the bar before of the crossing and side
+    for robot in range(orders.length.size):
+        for b in range(orders.first[robot], orders.first[robot + 1]):
+            c, other = orders.crossing[b], orders.other[b]
+            side = 0 if orders.robots[c, 0] == robot else 1
+            passed = min(orders.passed[b], orders.length[other])
+            low, high = orders.first[other], orders.first[other + 1]
+            if bars[c, side] < 0:
+                bars[c, side] = _first_bar(orders.place, low, high, passed)
+            else:
+                bars[c, side] = _bar_near(orders.place, low, high, bars[c, side], passed)
+            since[b] = bars[c, side] - 1
+    return since
+
+
+@inner
+def _all_shifts(
+    orders: PackedOrders, leaders: Ints, sequence: Ints, since: Ints, begin: Floats
+) -> tuple[Floats, Floats]:
+    """When robots would have set out to pass each bar when they do, and to arrive when they do.
+
+    Args:
+        orders: PackedOrders.
+        leaders: Who passes each crossing first, (c,).
+        sequence: Bars in an order in which they can be passed, (m,).
+        since: As of ``_bars_before``.
+        begin: When each robot sets out [s], (n,).
+
+    Returns:
+        For each bar [s], (bars,), and for each robot [s], (n,).
+    """
+    shift, last = np.full(orders.place.size, np.inf), begin.copy()
+    robot_of = np.empty(orders.place.size, np.int32)
+    for robot in range(begin.size):
+        for b in range(orders.first[robot], orders.first[robot + 1]):
+            robot_of[b] = robot
+    for b in sequence:
+        robot, other = robot_of[b], orders.other[b]
+        if leaders[orders.crossing[b]] == other:
+            before = since[b]
+            earlier = begin[other] if before < orders.first[other] else shift[before]
+            last[robot] = max(last[robot], earlier + orders.other_comes[b] - orders.comes[b])
+        shift[b] = last[robot]
+    return shift, last
 
 
 @inner
@@ -109,7 +173,8 @@ def packed_links(orders: PackedOrders, leaders: Ints, sequence: Ints, begin: Flo
         sequence: All bars in an order in which they can be passed, (bars,).
         begin: When each robot sets out [s], (n,).
     """
-    shift, last = expected_shifts(orders, leaders, sequence, orders.first[:-1], begin)
+    since_of = _bars_before(orders)
+    shift, last = _all_shifts(orders, leaders, sequence, since_of, begin)
     bars, robots = orders.place.size, orders.length.size
     rank, robot_of = np.empty(bars, np.int64), np.empty(bars, np.int64)
     for k in range(sequence.size):
@@ -122,7 +187,7 @@ def packed_links(orders: PackedOrders, leaders: Ints, sequence: Ints, begin: Flo
             robot_of[b] = robot
             if leaders[c] == orders.other[b]:
                 if counts[c] == 0:
-                    begins[c] = _since(orders, b) + 1 + leaders[c]  # by robots, and by their bars
+                    begins[c] = since_of[b] + 1 + leaders[c]  # by robots, and by their bars
                 counts[c] += 1
     slot, first = _slots(leaders, begins, bars + robots + 1, robots)
     size = first[robots]
@@ -144,7 +209,7 @@ def packed_links(orders: PackedOrders, leaders: Ints, sequence: Ints, begin: Flo
         c = orders.crossing[b]
         if leaders[c] != orders.other[b]:
             continue
-        k, since = slot[c], _since(orders, b)
+        k, since = slot[c], since_of[b]
         i = at[k]
         at[k] += 1
         if i == bar_first[k]:

@@ -11,8 +11,8 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.blocked_times import comes_to, goes_from, node_before
 from viaspline.kernels.fleet.granted_drive import PackedTrouble, drive_stretch, new_drive
 from viaspline.kernels.fleet.open_bars import open_bars_of
-from viaspline.kernels.fleet.order_flow import expected_shifts, order_flow
 from viaspline.kernels.fleet.order_swaps import consider_swaps, settle_recall
+from viaspline.kernels.fleet.order_times import new_order_times
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_laws import PackedLaws
@@ -130,7 +130,7 @@ def grant_of(orders: PackedOrders, dispatch: PackedDispatch, robot: int) -> floa
 @inner
 def swap_orders(
     courses: PackedCourses, alone: PackedLaws, orders: PackedOrders, dispatch: PackedDispatch,
-    sequence: Ints, now: float,
+    now: float,
 ) -> int:  # fmt: skip
     """Swap orders that have become foolish; how many were.
 
@@ -139,21 +139,22 @@ def swap_orders(
         alone: The laws of robots that set out at 0 s and never wait.
         orders: PackedOrders.
         dispatch: It is written to.
-        sequence: Bars in an order in which they can be passed, as the leaders are, (m,).
         now: [s].
     """
     for robot in range(orders.length.size):
         set_begin(courses, alone, dispatch, robot, now)
         open_bars_of(orders, dispatch, robot)
-    shift, _ = expected_shifts(orders, dispatch.leaders, sequence, dispatch.head, dispatch.begin)
-    return consider_swaps(orders, dispatch, shift, now)
+    times = new_order_times(
+        orders, dispatch.leaders, dispatch.progress, dispatch.head, dispatch.fixed, dispatch.begin
+    )
+    return consider_swaps(orders, dispatch, times, now)
 
 
 @kernel
 def dispatch_step(
     courses: PackedCourses, alone: PackedLaws, orders: PackedOrders, dispatch: PackedDispatch,
-    robots: Ints, reports: Floats, sequence: Ints, swaps: bool, now: float,
-) -> tuple[Floats, Ints]:  # fmt: skip
+    robots: Ints, reports: Floats, swaps: bool, now: float,
+) -> Floats:  # fmt: skip
     """One step of a fleet that is driven: reports in, grants out.
 
     Args:
@@ -164,31 +165,25 @@ def dispatch_step(
         robots: Who reports, (k,).
         reports: When [s], where it is [m], how far it takes itself to be let [m], and of when the
             last command is that it has heard [s], (k, 4).
-        sequence: Bars in an order in which they can be passed, as the leaders are, (m,).
         swaps: Whether orders that have become foolish are swapped.
         now: [s].
 
     Returns:
-        How far each robot may go [m], (n,); and an order in which all bars can be passed, (m,).
+        How far each robot may go [m], (n,).
     """
-    swapped = 0
     for i in range(robots.size):
         time, place, holds, heard = reports[i]
         if take_report(orders, dispatch, robots[i], place, holds, heard, time):
-            swapped += settle_recall(orders, dispatch, robots[i])
+            settle_recall(orders, dispatch, robots[i])
     count = orders.length.size
     for robot in range(count):
         set_begin(courses, alone, dispatch, robot, now)
     if swaps:
-        swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
-    if swapped > 0:
-        sequence, _ = order_flow(
-            orders, dispatch.leaders, dispatch.progress, orders.first[:-1], dispatch.fixed
-        )
+        swap_orders(courses, alone, orders, dispatch, now)
     grants = np.empty(count)
     for robot in range(count):
         grants[robot] = grant_of(orders, dispatch, robot)
-    return grants, sequence
+    return grants
 
 
 @kernel

@@ -17,7 +17,6 @@ from viaspline.kernels.fleet.granted_drive import (
     drive_stretch,
     new_drive,
 )
-from viaspline.kernels.fleet.order_flow import order_flow
 from viaspline.kernels.fleet.order_swaps import settle_recall
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
@@ -191,14 +190,11 @@ def fleet_ticks(
     drive = new_drive(courses, rides, trouble)
     dispatch = new_dispatch(orders, leaders, rides.depart)
     seen = leaders.copy()
-    is_old = False  # what the sequence of bars is
     grants = np.zeros(count)
     heard = np.full(count, -np.inf)
     waits = np.zeros(count, np.bool_)
     stretches, rows = new_floats(64 + 32 * count, 5), 0
     happened, events = new_floats(64, 5), 0
-    heads = dispatch.head.copy()
-    sequence, _ = order_flow(orders, dispatch.leaders, dispatch.progress, heads, dispatch.fixed)
     tick, now = 0, begin
     for robot in range(count):  # those without a law never set out
         dispatch.fixed[robot] = rides.depart[robot] == np.inf
@@ -208,15 +204,9 @@ def fleet_ticks(
         now = begin + tick * step
         swapped = _hear(orders, dispatch, drive, trouble, grants, heard, tick, now)
         if swap_every > 0 and tick % swap_every == 0:
-            if is_old:
-                sequence, _ = order_flow(
-                    orders, dispatch.leaders, dispatch.progress, orders.first[:-1], dispatch.fixed
-                )
-                is_old = False
-            swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
+            swapped += swap_orders(courses, alone, orders, dispatch, now)
         if swapped > 0:
             happened, events = _note_swaps(seen, dispatch, now, happened, events)
-            is_old = True
         _grant(orders, dispatch, drive, rides, trouble, grants, heard, tick, now)
         stretches, rows = _drive_tick(
             drive, courses, rides, trouble, grants, now, step, stretches, rows

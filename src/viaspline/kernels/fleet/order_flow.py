@@ -1,4 +1,4 @@
-"""Do the orders of a fleet ever come to an end, and when does each robot come where?
+"""Do the orders of a fleet ever come to an end, and in which order can its bars be passed?
 
 Robots are moved from bar to bar, as far as those before them let them. Bars only ever open, so all
 ways of doing so end alike: if every robot arrives, then it does so whatever the delays, for the
@@ -30,13 +30,20 @@ def order_flow(
         fixed: Whether a robot never gets on any more, (n,).
 
     Returns:
-        All bars from the heads on in an order in which they can be passed, (m,); and for each robot
-        the bar at which it is stuck, or -1, (n,).
+        Rows of bars in an order in which they can be passed, all of them from the heads on if none
+        is stuck: the first of each row, and the one behind its last, (k, 2); and for each robot the
+        bar at which it is stuck, or -1, (n,).
     """
     count = orders.length.size
     come = progress.copy()
     stuck = head.copy()
-    sequence = np.empty(orders.place.size, np.int64)
+    heeds = np.full(leaders.size, np.int32(-1))  # who has to look at a crossing yet
+    final = np.empty(leaders.size)  # and how far the other has to come until all of it is open
+    for c in range(leaders.size):
+        if leaders[c] >= 0:
+            side = 1 if leaders[c] == orders.robots[c, 0] else 0
+            heeds[c], final[c] = orders.robots[c, side], orders.final[c, side]
+    rows = np.empty((orders.place.size + count, 2), np.int64)
     done = 0
     waiter = np.full(count, -1)  # the first of those who wait for a robot
     behind = np.full(count, -1)  # who waits for the same robot
@@ -53,13 +60,18 @@ def order_flow(
         is_ready[robot] = False
         b, end = stuck[robot], orders.first[robot + 1]
         while b < end:
-            other = orders.other[b]
-            if leaders[orders.crossing[b]] == other and come[other] < orders.passed[b]:
-                behind[robot], waiter[other] = waiter[other], robot
-                break
-            sequence[done] = b
-            done += 1
+            c = orders.crossing[b]
+            if heeds[c] == robot:
+                other = leaders[c]
+                if come[other] >= final[c]:
+                    heeds[c] = -1
+                elif come[other] < orders.passed[b]:
+                    behind[robot], waiter[other] = waiter[other], robot
+                    break
             b += 1
+        if b > stuck[robot]:
+            rows[done, 0], rows[done, 1] = stuck[robot], b
+            done += 1
         stuck[robot] = b
         if b == end:
             come[robot] = np.inf if orders.vanishes[robot] else orders.length[robot]
@@ -79,40 +91,4 @@ def order_flow(
     for robot in range(count):
         if stuck[robot] == orders.first[robot + 1] or fixed[robot]:
             stuck[robot] = -1
-    return sequence[:done], stuck
-
-
-@kernel
-def expected_shifts(
-    orders: PackedOrders, leaders: Ints, sequence: Ints, head: Ints, begin: Floats
-) -> tuple[Floats, Floats]:
-    """How much later than without waits robots pass their bars, by what is known now.
-
-    Inertia is left out: this is a lower bound for robots that drive as fast as they may.
-
-    Args:
-        orders: PackedOrders.
-        leaders: Who passes each crossing first, (c,).
-        sequence: Bars in an order in which they can be passed, (m,).
-        head: Bars before this one have been passed, (n,).
-        begin: When each robot would have set out to be where it is now without waits [s], (n,).
-
-    Returns:
-        When each robot would have set out to pass a bar when it does, without waits [s], (bars,);
-        infinite where that isn't known; and likewise to arrive when it does, (n,).
-    """
-    shift = np.full(orders.place.size, np.inf)
-    last = begin.copy()
-    robot_of = np.empty(orders.place.size, np.int32)
-    for robot in range(head.size):
-        robot_of[orders.first[robot] : orders.first[robot + 1]] = robot
-    for b in sequence:
-        robot, other = robot_of[b], orders.other[b]
-        if b < head[robot]:
-            continue
-        if leaders[orders.crossing[b]] == other:
-            since = orders.since[b]
-            earlier = begin[other] if since < head[other] else shift[since]
-            last[robot] = max(last[robot], earlier + orders.other_comes[b] - orders.comes[b])
-        shift[b] = last[robot]
-    return shift, last
+    return rows[:done].copy(), stuck

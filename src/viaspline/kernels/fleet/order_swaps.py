@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.order_times import OrderTimes, shift_at
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 from viaspline.kernels.jit import inner
@@ -114,14 +114,14 @@ def settle_recall(orders: PackedOrders, dispatch: PackedDispatch, robot: int) ->
 
 @inner
 def consider_swaps(
-    orders: PackedOrders, dispatch: PackedDispatch, shift: Floats, now: float
+    orders: PackedOrders, dispatch: PackedDispatch, times: OrderTimes, now: float
 ) -> int:
     """Swap orders that have become foolish, or ask their leaders to wait so that they can be.
 
     Args:
         orders: PackedOrders.
         dispatch: It is written to.
-        shift: When robots would have set out to pass bars when they are expected to [s], (bars,).
+        times: When robots are expected to pass their bars.
         now: [s].
 
     Returns:
@@ -148,7 +148,9 @@ def consider_swaps(
             continue
         stalled = max(now - dispatch.moved_at[leader], 0.0)
         before = entry - 1
-        leads = dispatch.begin[leader] if before < dispatch.head[leader] else shift[before]
+        leads = dispatch.begin[leader]
+        if before >= dispatch.head[leader]:
+            leads = shift_at(times, leader, before)
         leads = max(leads, dispatch.begin[leader] + stalled)
         held = max(leads + orders.other_comes[own_final] - orders.comes[own_final] - begin, 0.0)
         would = max(begin + orders.other_comes[final] - orders.comes[final] - leads, 0.0)

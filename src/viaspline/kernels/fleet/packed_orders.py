@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints, Steps
 
 
 class PackedOrders(NamedTuple):
@@ -26,9 +26,11 @@ class PackedOrders(NamedTuple):
         crossing: Which crossing it is for, (bars,).
         comes: When the robot comes to the bar if it never waits [s since it set out], (bars,).
         other_comes: When the other one comes where it has passed, likewise [s], (bars,).
-        since: The last bar of the other robot before that, whether it counts or not; -1 if there
-            is none, (bars,).
         robots: The two robots of each crossing, (c, 2).
+        final: The farthest that a bar of each of them asks the other to have come [m]; minus
+            infinity: it has none, (c, 2).
+        most: The most by which the other comes later past such a bar than it comes to it, if none
+            ever waits and both set out at once [s]; likewise, (c, 2).
         may_lead: Whether each of them may pass first, (c, 2): it must not rest in the crossing,
             nor the other one begin in it.
         length: Of the robots' paths [m], (n,).
@@ -39,13 +41,14 @@ class PackedOrders(NamedTuple):
 
     first: Ints
     place: Floats
-    other: Ints
+    other: Steps
     passed: Floats
-    crossing: Ints
+    crossing: Steps
     comes: Floats
     other_comes: Floats
-    since: Ints
     robots: Ints
+    final: Floats
+    most: Floats
     may_lead: Flags
     length: Floats
     vanishes: Flags

@@ -8,19 +8,12 @@ Tested through ``fleet/execution/test_grown_orders``.
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Ints
-from viaspline.kernels.fleet.crossing_bars import first_bar
 from viaspline.kernels.fleet.packed_orders import PackedOrders
-from viaspline.kernels.growable import new_floats, new_ints
+from viaspline.kernels.growable import new_floats, new_steps
 from viaspline.kernels.jit import inlined, inner, kernel
-
-NONE: Final = -1
-FRESH: Final = -2
-"""In place of the bar before: it has to be sought."""
 
 
 @inner
@@ -70,7 +63,6 @@ def _put_all(to: PackedOrders, old: PackedOrders, number: Ints, robot: int) -> N
     to.passed[at:behind] = old.passed[begin:end]
     to.comes[at:behind] = old.comes[begin:end]
     to.other_comes[at:behind] = old.other_comes[begin:end]
-    to.since[at:behind] = old.since[begin:end]
     for i in range(begin, end):
         to.crossing[at + i - begin] = number[old.crossing[i]]
 
@@ -78,13 +70,8 @@ def _put_all(to: PackedOrders, old: PackedOrders, number: Ints, robot: int) -> N
 @inner
 def _merge(
     to: PackedOrders, old: PackedOrders, number: Ints, fresh: PackedOrders, changed: Flags
-) -> Ints:
-    """Put the bars of all robots in their order; where each of those with others goes, (bars,).
-
-    A bar that isn't there any more is counted as the one before it. ``since`` has the numbers of
-    bars as they were before.
-    """
-    moved = new_ints(old.place.size, 1)[:, 0]
+) -> None:
+    """Put the bars of all robots in their order."""
     for robot in range(changed.size):
         if not changed[robot]:
             if robot < old.first.size - 1:
@@ -97,42 +84,18 @@ def _merge(
         for i in range(begin, end):
             crossing = number[old.crossing[i]]
             if crossing < 0:
-                moved[i] = at - 1
                 continue
             while j < news and (
                 fresh.place[j] < old.place[i]
                 or (fresh.place[j] == old.place[i] and fresh.crossing[j] < crossing)
             ):
                 _put(to, at, fresh, j, fresh.crossing[j])
-                to.since[at] = FRESH
                 at, j = at + 1, j + 1
             _put(to, at, old, i, crossing)
-            to.since[at] = old.since[i]
-            moved[i] = at
             at += 1
         while j < news:
             _put(to, at, fresh, j, fresh.crossing[j])
-            to.since[at] = FRESH
             at, j = at + 1, j + 1
-    return moved
-
-
-@inner
-def _set_since(to: PackedOrders, old: PackedOrders, moved: Ints, changed: Flags) -> None:
-    """Number the bars before others have passed as they are now."""
-    for b in range(to.place.size):
-        other, since = to.other[b], to.since[b]
-        low, high = to.first[other], to.first[other + 1]
-        passed = min(to.passed[b], to.length[other])
-        if since == FRESH:
-            bar = first_bar(to.place, low, high, passed)
-        elif changed[other]:
-            bar = moved[since] + 1 if since >= 0 else low
-            while bar < high and to.place[bar] < passed:
-                bar += 1
-        else:
-            bar = since + 1 + low - old.first[other] if since >= 0 else low
-        to.since[b] = bar - 1 if bar > low else NONE
 
 
 @kernel
@@ -152,10 +115,10 @@ def renewed_bars(old: PackedOrders, number: Ints, fresh: PackedOrders) -> Packed
     first = _bar_counts(old, number, fresh, changed)
     bars = first[first.size - 1]
     to = PackedOrders(
-        first, new_floats(bars, 1)[:, 0], new_ints(bars, 1)[:, 0], new_floats(bars, 1)[:, 0],
-        new_ints(bars, 1)[:, 0], new_floats(bars, 1)[:, 0], new_floats(bars, 1)[:, 0],
-        new_ints(bars, 1)[:, 0], fresh.robots, fresh.may_lead, fresh.length, fresh.vanishes,
+        first, new_floats(bars, 1)[:, 0], new_steps(bars, 1)[:, 0], new_floats(bars, 1)[:, 0],
+        new_steps(bars, 1)[:, 0], new_floats(bars, 1)[:, 0], new_floats(bars, 1)[:, 0],
+        fresh.robots, fresh.final, fresh.most, fresh.may_lead, fresh.length, fresh.vanishes,
         fresh.short,
     )  # fmt: skip
-    _set_since(to, old, _merge(to, old, number, fresh, changed), changed)
+    _merge(to, old, number, fresh, changed)
     return to

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats, Ints, Steps
 from viaspline.kernels.jit import kernel, uncounted
 
 
@@ -41,7 +41,7 @@ def _merge(
 @kernel
 def sorted_bars(
     who: Ints, where: Floats, robots: int
-) -> tuple[Ints, Ints, Ints, Floats, Floats]:  # fmt: skip
+) -> tuple[Ints, Steps, Steps, Floats, Floats]:  # fmt: skip
     """Bars by their robots, places, crossings, and by where the others have passed them.
 
     Args:
@@ -72,7 +72,7 @@ def sorted_bars(
                 if _comes_later(who, where, order[middle - 1], order[middle]):
                     _merge(who, where, order, room, begin, middle, min(middle + size, end))
             size *= 2
-    other, crossing = np.empty(count, np.int64), np.empty(count, np.int64)
+    other, crossing = np.empty(count, np.int32), np.empty(count, np.int32)
     place, passed = np.empty(count), np.empty(count)
     for k in range(count):
         bar = order[k]
