@@ -48,10 +48,13 @@ def gentle_strips(
         less than the run.
     """
     for strip in _finer_and_finer(run, world, body):
-        for tried in _promising(strip, price):
+        search = _searched(strip, price)
+        for tried in _promising(search):
             for one in _as_fine_as_it_rests(tried, price):
                 if one.is_settled and price.is_gentler(bending(one.spans)[0]):
                     yield one.laid
+        if _is_clear(search) and not search.may_be_taken_finer:
+            return
 
 
 def _finer_and_finer(run: BendableRun, world: World, body: StripBody) -> Iterator[TenseStrip]:
@@ -68,11 +71,17 @@ def _finer_and_finer(run: BendableRun, world: World, body: StripBody) -> Iterato
         count = len(strip.strip.places)
 
 
-def _promising(strip: TenseStrip, price: RunPrice) -> Iterator[Tried]:
-    """The strip of the least tension that takes hardly longer, then others, the soonest first."""
+def _is_clear(search: TensionSearch) -> bool:
+    """Whether strips came to rest at all tensions, and nothing stands beside any of them."""
+    rest = (one.strip.is_settled and one.strip.is_open for one in search.tried)
+    return bool(search.tried) and all(rest)
+
+
+def _searched(strip: TenseStrip, price: RunPrice) -> TensionSearch:
+    """The search for the tension of a strip, as far as it gets."""
     search = TensionSearch(price)
     if strip.has_kink:
-        return
+        return search
     tension, restless = search.first / strip.run.length, 0
     for _ in range(MOST_TENSIONS):
         moved = strip.settled(tension, NEARLY_SETTLED)
@@ -82,10 +91,14 @@ def _promising(strip: TenseStrip, price: RunPrice) -> Iterator[Tried]:
         if following is None or restless > MOST_RESTLESS:
             break
         strip, tension = following
-    if search.chosen is None:
-        return
-    yield search.chosen
-    yield from search.others[:MOST_OTHERS]
+    return search
+
+
+def _promising(search: TensionSearch) -> Iterator[Tried]:
+    """The strip of the least tension that takes hardly longer, then others, the soonest first."""
+    if search.chosen is not None:
+        yield search.chosen
+        yield from search.others[:MOST_OTHERS]
 
 
 def _as_fine_as_it_rests(chosen: Tried, price: RunPrice) -> Iterator[TenseStrip]:

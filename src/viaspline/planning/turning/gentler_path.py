@@ -21,11 +21,10 @@ from viaspline.planning.turning.gentle_strip import gentle_strips
 from viaspline.planning.turning.laid_turns import through_spans
 from viaspline.planning.turning.lane_turns import BESIDE_LANE
 from viaspline.planning.turning.strip_body import strip_bodies
-from viaspline.planning.turning.tension_search import GENTLE_SHARE, RunPrice
+from viaspline.planning.turning.tension_search import GENTLE_SHARE, TIME_KNOWN, RunPrice
 
 LEAST_RUN = 4.0  # of a run that has room to bend less, in required distances
 STRAIGHT = 1e-9  # bending times length, of what need not bend less
-TIME_KNOWN = 1e-3  # of a driven time: it is known so well
 SHARPER = 1e-3  # by which a path is no sharper yet: as well as that is known
 STRAIGHT_SPAN = 1e-7  # by which a straight one's controls are off, in required distances
 
@@ -131,11 +130,11 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
     slowing, limit = pace.slowing, max(as_sharp, 1.0 / own if own > 0.0 else np.inf)
     if needs.budget is not None:  # under way there is no time for it
         slowing = limit = np.inf
-    price = RunPrice(time, now, before, known, slowing, limit)
+    price = RunPrice(time, now, before, known, slowing, as_sharp, limit)
     for bent in _strips(run, problem, price):
         peak = bending(bent.spans)[1]
         is_round = peak * needs.outer_radius <= 1.0
-        is_sooner = time(bent.spans, bent.joints) <= (1.0 - TIME_KNOWN) * now
+        is_sooner = time(bent.spans, bent.joints) <= price.sooner
         if (peak <= as_sharp or (is_round and is_sooner)) and problem.is_drivable(bent.spans):
             return bent
     return None

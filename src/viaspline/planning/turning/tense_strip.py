@@ -90,6 +90,12 @@ class TenseStrip:
         return bool(has_kink(self.strip.places))
 
     @property
+    def is_open(self) -> bool:
+        """Whether nothing that stands beside it keeps any of its places from moving."""
+        low, high, fixed = self.strip.low, self.strip.high, self.strip.fixed
+        return bool((fixed | ((low == -np.inf) & (high == np.inf))).all())
+
+    @property
     def laid(self) -> LaidRun:
         """It as a run of a path, with a detour via point wherever it touches something."""
         rooms = self.strip.rooms

@@ -14,10 +14,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.curve.measure import bending
 from viaspline.planning.turning.tense_strip import TenseStrip
 
 GENTLE_SHARE = 2e-3  # of the time, that may be spent
 LEAST_GENTLER = 0.02  # of the bending, that has to be saved
+TIME_KNOWN = 1e-3  # of a driven time: it is known so well
+FINER_GENTLER = 0.02  # of its bending, that a strip in the open has less with more places, at most
+FINER_SOONER, FINER_BLUNTER = 5e-4, 0.05  # the same, of its time and of its sharpest curvature
 FIRST, LEAST_OVER = 0.1, 0.5  # of that at which what was laid would be a strip; see ``first``
 STEPPED = 10.0  # at most, of the tension from one that is tried to the next, where that is foretold
 LOOSENED = 4.0  # where it isn't
@@ -37,6 +41,7 @@ class RunPrice:
         bending: Of what was laid [1/m].
         least: No run on the same sides takes less time [s].
         slowing: Curvature beyond which the robot slows down [1/m], infinite where it never does.
+        sharp: Curvature beyond which a run isn't taken unless it is sooner [1/m].
         limit: Curvature beyond which a run that is sharper than what was laid isn't taken [1/m].
     """
 
@@ -45,7 +50,13 @@ class RunPrice:
     bending: float
     least: float
     slowing: float
+    sharp: float
     limit: float
+
+    @property
+    def sooner(self) -> float:
+        """The longest time in which a run is driven that is sooner than what was laid [s]."""
+        return (1.0 - TIME_KNOWN) * self.time
 
     def is_gentler(self, bending: float) -> bool:
         """Whether a run with a bending [1/m] bends less than what was laid."""
@@ -99,6 +110,21 @@ class TensionSearch:
     def chosen(self) -> Tried | None:
         """The least tension that takes no more than may be spent, if there is one."""
         return next((one for one in self._gentler if self._spent(one) <= 1.0), None)
+
+    @property
+    def may_be_taken_finer(self) -> bool:
+        """Whether one with more places may be taken, if nothing stands beside any: it is alike."""
+        price = self.price
+        gentler = (one for one in self.tried if price.is_gentler((1 - FINER_GENTLER) * one.bending))
+        times = ((one, (1.0 - FINER_SOONER) * one.time) for one in gentler)
+        return any(
+            time <= price.sooner
+            or (
+                time <= (1.0 + GENTLE_SHARE) * price.time
+                and (1.0 - FINER_BLUNTER) * bending(one.strip.spans)[1] <= price.sharp
+            )
+            for one, time in times
+        )
 
     @property
     def others(self) -> list[Tried]:
