@@ -94,7 +94,7 @@ def _crossed(state: FleetProgressState, robot: int) -> tuple[Ints, Ints, Flags]:
     place, other = orders.place[own], orders.other[own]
     may_be_in = (place < packed.promised[robot]) | (place <= 0.0)
     may_be_in &= packed.progress[other] < orders.passed[own]
-    crossings, index = np.unique(orders.crossing[own], return_inverse=True)
+    crossings, index = np.unique(orders.crossing[own].astype(np.int64), return_inverse=True)
     is_near = np.zeros(len(crossings), np.bool_)
     is_near[index[may_be_in]] = True
     others = np.zeros(len(crossings), np.int64)

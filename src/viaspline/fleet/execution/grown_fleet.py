@@ -26,7 +26,7 @@ from viaspline.mission.fleet.fleet import FleetMember
 
 Value = TypeVar("Value", bound=np.generic)
 
-NO_LAWS = FleetLaws(PackedLaws(*np.empty((3, 0)), np.empty(0, np.bool_)))
+NO_LAWS = FleetLaws(PackedLaws(np.empty(0), np.empty(0), np.empty(0), np.empty(0, np.bool_)))
 """Of robots of which none is timed yet."""
 
 
