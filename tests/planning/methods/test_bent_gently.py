@@ -13,6 +13,7 @@ import viaspline as vs
 from viaspline.kernels.curve.measure import bending
 from viaspline.planning.methods.bent_gently import BentGently
 from viaspline.planning.problem.path_pace import Pace
+from viaspline.planning.turning.tension_search import TensionSearch
 
 KEPT = 1.0
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -287,3 +288,33 @@ def test_doors_that_just_fit_are_driven_through_as_soon_as_wide_ones(
     within = 1.01 * wide.trajectory.duration  # 16.7 and 12.9 s for 1e-3 and 4, before
     assert fits.trajectory.duration <= within
     assert fits.certificate.clearance >= 0.0
+
+
+def test_where_no_strip_with_more_places_is_tried_none_would_be_taken(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """In the open such a strip lies as the one with fewer does: what comes of it is known."""
+    tried: list[bool] = []
+    may = TensionSearch.may_be_taken_finer.fget
+    assert may is not None
+
+    def noted(search: TensionSearch) -> bool:
+        tried.append(may(search))
+        return True
+
+    for seed in range(24):
+        rng = np.random.default_rng(seed)
+        points = rng.uniform(0.0, 60.0, (int(rng.integers(4, 7)), 2)).tolist()
+        asked = vs.Mission.model_validate(
+            {
+                "robot": {"radius_m": 0.5, "max_speed_mps": 2.0, "max_lateral_accel_mps2": 0.8},
+                "route": {"start": points[0], "via": points[1:-1], "goal": points[-1]},
+            }
+        )
+        found = vs.plan(asked)
+        with monkeypatch.context() as patched:
+            patched.setattr(TensionSearch, "may_be_taken_finer", property(noted))
+            always = vs.plan(asked)
+        assert found.path.spans.tobytes() == always.path.spans.tobytes()
+    assert tried.count(False) > 5
+    assert tried.count(True) > 0
