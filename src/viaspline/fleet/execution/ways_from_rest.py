@@ -248,6 +248,8 @@ def _with_room_at(
 
     How near the path really comes to such a robot is seen where it is timed.
     """
+    if not out:
+        return rests
     x, y = start
     found = []
     for one in rests.places:
