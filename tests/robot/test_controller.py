@@ -14,6 +14,7 @@ from viaspline.kernels.tracking.drive_motion import ALONG, GIVEN_AT, HEADING, X,
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.pose_filter import PoseFilter
 from viaspline.machine.robot_model import drive_model_of
+from viaspline.machine.settling import STILL_MPS, settled_after_law
 from viaspline.machine.trial_drive import start_of
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
@@ -70,3 +71,23 @@ def _farthest_beside(drive: dict[str, object], search: float, told: float) -> fl
         move(model, state, time, PERIOD_S / 10, controller.given.copy(), np.zeros((10, 2)))
         tick += 1
     return beside
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.02])
+def test_one_that_stays_put_stands_though_its_law_has_just_come_to_rest(noise: float) -> None:
+    """It rolled on for half a second, and by the noise of what it measures to and fro for ever."""
+    robot = RobotSpec.model_validate({"drive": DRIVES[0], "max_brake_mps2": 1.5})
+    path, model = Path([[(0, 0), (1, 0), (2, 0), (3, 0)]], []), drive_model_of(robot, PERIOD_S)
+    law, random = retime(path, limits_of(robot)), np.random.default_rng(3)
+    controller = Controller.of(model, PERIOD_S, path, law, PoseFilter.of(robot, PERIOD_S))
+    state, tick, speeds = start_of(model, controller.reference), 0, []
+    while tick * PERIOD_S < law.end_time + 2.0:
+        time, off = tick * PERIOD_S, random.normal(0.0, noise, 3)
+        at = RobotState((state[X] + off[0], state[Y] + off[1]), state[HEADING] + off[2],
+                        float(state[ALONG]))  # fmt: skip
+        controller = controller.step(at, time).staying_put().gave(time)
+        move(model, state, time, PERIOD_S / 10, controller.given.copy(), np.zeros((10, 2)))
+        tick += 1
+        if time > law.end_time + settled_after_law(model, 1.5, PERIOD_S):
+            speeds.append(abs(float(state[ALONG])))
+    assert max(speeds) < STILL_MPS

@@ -20,6 +20,7 @@ from viaspline.trajectory.passive_safety import (
     passive_law,
     proven_until,
     stoppable_speeds,
+    touched_from,
 )
 from viaspline.trajectory.retime import braking, retime
 from viaspline.trajectory.trajectory import Trajectory
@@ -131,6 +132,38 @@ def test_a_passive_law_and_braking_from_anywhere_on_it_are_touched_by_nothing(
     ):
         brake = braking(float(s), float(v), BRAKE, float(t))
         assert least_gap(path, brake, premises) > KEEP - 1e-9
+
+
+@given(scenes(), st.floats(0.1, 1.0))
+@settings(deadline=None, max_examples=30)
+def test_one_that_settles_after_its_law_is_not_touched_meanwhile(
+    scene: tuple[Path, PassivePremises], settle: float
+) -> None:
+    path, premises = scene
+    free = retime(path, Limits(max_speed=2.0, max_accel=1.0), start_time=2.0)
+    law, proven = passive_law(path, free, premises, KEEP, (1.0, BRAKE), 2.0, settle=settle)
+    assert proven
+    end, rest = law.end_time, np.asarray(path.at_distance(law.distances[-1]))
+    if end == law.start_time:
+        return
+    gaps = [threats_of(premises, t, rest) for t in np.linspace(end, end + settle, 50)]
+    assert min(gaps) > KEEP - 1e-9
+    assert math.isinf(touched_from(path, law.distances[-1], end, settle, premises, KEEP))
+
+
+@given(scenes(), st.floats(0.0, 6.0), st.floats(0.01, 4.0))
+@settings(deadline=None, max_examples=50)
+def test_one_that_stands_is_told_from_when_on_it_may_be_touched(
+    scene: tuple[Path, PassivePremises], at: float, stay: float
+) -> None:
+    path, premises = scene
+    place = np.asarray(path.at_distance(at))
+    until = touched_from(path, at, 2.0, stay, premises, KEEP)
+    times = np.linspace(2.0, min(until, 2.0 + stay), 30, endpoint=False)
+    for t in times if until > 2.0 else ():
+        assert threats_of(premises, t, place) > KEEP - 1e-9
+    if until < math.inf:
+        assert threats_of(premises, until, place) < KEEP + TOLERANCE
 
 
 @given(scenes(), st.floats(0.0, 6.0), st.floats(0.0, 2.0))

@@ -26,6 +26,7 @@ from viaspline.kernels.tracking.reference_timing import SpeedProfile
 from viaspline.machine.drive_ahead import DriveState
 from viaspline.machine.pose_filter import PoseFilter
 from viaspline.machine.reference import reference_path_of
+from viaspline.machine.settling import stilling_command
 from viaspline.machine.trial_drive import speed_profile_of, start_of
 from viaspline.robot.state import RobotState
 from viaspline.trajectory.trajectory import Trajectory
@@ -145,6 +146,22 @@ class Controller:
         last, pose = float(self.memory[control_law.LAST_TIME]), self.believed
         predicted = predict(self.model, pose, last, time, self.given.copy())
         return self.pose_filter.updated(predicted, measured)
+
+    def staying_put(self) -> Controller:
+        """The controller that brings the robot to a stand if its law rests, where it is.
+
+        It turns as before.
+        """
+        if not self.note[control_law.REST] > 0.0 or self.believed is None:
+            return self
+        note, told_at = self.note.copy(), float(self.memory[control_law.LAST_TIME])
+        then = float(note[control_law.TIME])
+        pose = predict(self.model, self.believed, told_at, then, self.given.copy())
+        for told, speed in (
+            (control_law.NOTED_ALONG, ALONG), (control_law.NOTED_ACROSS, ACROSS),
+        ):  # fmt: skip
+            note[told] = stilling_command(self.model, float(pose[speed]), self.period)
+        return replace(self, note=note)
 
     @property
     def state(self) -> DriveState:

@@ -98,6 +98,38 @@ def at_rest_until(
     return float(kernels.touched_at_rest(threats, part.places, SPACING_M, keep, 0.0, begin, stay))
 
 
+def touched_from(
+    path: Path, distance: float, begin: float, stay: float, premises: PassivePremises, keep: float
+) -> float:
+    """From when on it isn't proven that nothing at all touches a robot which stands [s].
+
+    Args:
+        path: On which it stands.
+        distance: Where, along it [m].
+        begin: From when on [s].
+        stay: For how long [s].
+        premises: What may come.
+        keep: The body's radius and how far beside its path it may be [m].
+
+    Returns:
+        Infinite if nothing does for as long as it stays.
+
+    Raises:
+        GeometryError: When it begins before the look.
+
+    Example:
+        >>> from viaspline.world.moving_obstacles import MovingObstacles
+        >>> path = Path([[(x, 0.0) for x in (0, 3, 6, 9)]], [])
+        >>> look = PassivePremises(MovingObstacles(), 0.0, 1.0, (0, 0), 6.0)
+        >>> round(touched_from(path, 4.0, 0.0, 8.0, look, 0.5), 2)
+        1.5
+    """
+    _check_begin(begin, premises)
+    part = ChordTable.at(path, distance)
+    threats = premises.along(part, keep)
+    return float(kernels.touched_standing(threats, part.places, SPACING_M, keep, 0.0, begin, stay))
+
+
 def passive_law(
     path: Path,
     upper: Trajectory,
@@ -107,6 +139,7 @@ def passive_law(
     now: float,
     lasting: float = math.inf,
     stay: float = 0.0,
+    settle: float = 0.0,
 ) -> tuple[Trajectory, bool]:
     """A law no faster than another, from all places of which the robot stops in time.
 
@@ -123,6 +156,7 @@ def passive_law(
         lasting: So long it goes on if it may; then it brakes [s]. Who looks again before then need
             not know more.
         stay: Where it stops what is on the map has to stay away for so long [s].
+        settle: For so long after its law rests the robot may still move, and nothing may come [s].
 
     Returns:
         (the law, whether it is proven). Not proven: not even braking at once is, and that is the
@@ -155,7 +189,7 @@ def passive_law(
     kept = keep + part.sag + 2.0 * kernels.LEAST_GAP  # so that a check finds it proven, too
     distances, squares, proven = kernels.passive_profile(
         premises.along(part, kept), part.places, SPACING_M, kept, accel, brake,
-        line - part.origin, caps, speed, now, lasting, stay,
+        line - part.origin, caps, speed, now, lasting, stay, settle,
     )  # fmt: skip
     if distances.size == 1:
         distances, squares = np.append(distances, distances), np.zeros(2)

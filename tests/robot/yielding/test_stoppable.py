@@ -60,7 +60,7 @@ def test_nothing_touches_one_with_a_limit_of_the_jerk_and_a_delay() -> None:
     asked = among(1, "passive", goal=9.0, max_jerk_mps3=2.0, drive=drive)
     run = vs.simulate(asked, step=0.2)
     assert run.encounters is not None
-    assert [contact for contact in run.encounters.contacts if contact.robot_speed > 0.01] == []
+    assert [contact for contact in run.encounters.contacts if contact.robot_speed > 0.0] == []
 
 
 def test_who_stands_for_what_crosses_sets_off_when_it_is_gone_and_not_before() -> None:

@@ -11,7 +11,8 @@ and that is how far a check goes on: it proves a law for all instants of it, not
 looks anew where a motion jumps.
 
 What moves as the map says can be asked for more: whether it stays away from a robot that has come
-to rest, too. Of what else there may be nobody can say that.
+to rest, too. Of what else there may be nobody can say that, but for the moment that a drive needs
+to settle once its law rests.
 
 Tested through ``trajectory/test_passive_safety`` and ``trajectory/test_charted_safety``.
 """
@@ -91,18 +92,24 @@ def _first_contact(
 @inner
 def _stops(
     threats: Threats, places: Floats, step: float, keep: float, brake: float, stay: float,
-    s: float, v: float, t: float,
+    settle: float, s: float, v: float, t: float,
 ) -> bool:  # fmt: skip
     """Whether a robot that brakes from here and now on is at rest before any contact.
 
-    And whether what is on the map stays away from it while it stays there for so long [s].
+    And before any in the time that it takes to settle [s], and whether what is on the map stays
+    away from it while it stays there for so long [s].
     """
     lasts = v / brake
     if _first_contact(threats, 0, places, step, keep, s, v, -brake, t, lasts) < np.inf:
         return False
+    rest = s + 0.5 * v * lasts
+    if settle > 0.0:
+        found = _first_contact(threats, 0, places, step, keep, rest, 0.0, 0.0, t + lasts, settle)
+        if found < np.inf:
+            return False
     if stay <= 0.0:
         return True
-    rest, charted = s + 0.5 * v * lasts, first_charted(threats)
+    charted = first_charted(threats)
     found = _first_contact(threats, charted, places, step, keep, rest, 0.0, 0.0, t + lasts, stay)
     return math.isinf(found)
 
@@ -157,6 +164,27 @@ def touched_at_rest(
 
 
 @kernel
+def touched_standing(
+    threats: Threats, places: Floats, step: float, keep: float, s: float, t: float, stay: float
+) -> float:
+    """From when on it isn't proven that a robot which stands is touched by nothing at all [s].
+
+    Args:
+        threats: What may come.
+        places: See ``first_contact``.
+        step: See ``first_contact``.
+        keep: See ``first_contact``.
+        s: Where it stands [m].
+        t: From when on [s].
+        stay: For how long [s].
+
+    Returns:
+        Infinite if it is for as long as it stays.
+    """
+    return _first_contact(threats, 0, places, step, keep, s, 0.0, 0.0, t, stay)
+
+
+@kernel
 def stoppable_speeds(
     threats: Threats, places: Floats, step: float, keep: float, brake: float,
     distances: Floats, times: Floats, caps: Floats,
@@ -181,13 +209,13 @@ def stoppable_speeds(
     speeds = np.zeros(distances.size)
     for j in range(distances.size):
         s, t = distances[j], times[j]
-        if _stops(threats, places, step, keep, brake, 0.0, s, caps[j], t):
+        if _stops(threats, places, step, keep, brake, 0.0, 0.0, s, caps[j], t):
             speeds[j] = caps[j]
             continue
         low, high = 0.0, caps[j]
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            if _stops(threats, places, step, keep, brake, 0.0, s, middle, t):
+            if _stops(threats, places, step, keep, brake, 0.0, 0.0, s, middle, t):
                 low = middle
             else:
                 high = middle
@@ -198,7 +226,7 @@ def stoppable_speeds(
 @inner
 def _goes_on(
     threats: Threats, places: Floats, step: float, keep: float, brake: float, stay: float,
-    s: float, v: float, t: float, width: float, square: float,
+    settle: float, s: float, v: float, t: float, width: float, square: float,
 ) -> bool:  # fmt: skip
     """Whether a robot may drive to the next place, have a v² there, and still stops in time."""
     after = math.sqrt(square)
@@ -209,24 +237,24 @@ def _goes_on(
     found = _first_contact(threats, 0, places, step, keep, s, v, accel, t, duration)
     if found < np.inf:
         return False
-    return _stops(threats, places, step, keep, brake, stay, s + width, after, t + duration)
+    return _stops(threats, places, step, keep, brake, stay, settle, s + width, after, t + duration)
 
 
 @inner
 def _largest_square(
     threats: Threats, places: Floats, step: float, keep: float, brake: float, stay: float,
-    s: float, v: float, t: float, width: float, high: float,
+    settle: float, s: float, v: float, t: float, width: float, high: float,
 ) -> float:  # fmt: skip
     """The largest v² at the next place that is proven; that of braking on, below 0 if it rests."""
     best = v * v - 2.0 * brake * width
     if high < best:
         return best
-    if _goes_on(threats, places, step, keep, brake, stay, s, v, t, width, high):
+    if _goes_on(threats, places, step, keep, brake, stay, settle, s, v, t, width, high):
         return high
     low = max(best, 0.0)
     for _ in range(STEP_HALVINGS):
         middle = 0.5 * (low + high)
-        if _goes_on(threats, places, step, keep, brake, stay, s, v, t, width, middle):
+        if _goes_on(threats, places, step, keep, brake, stay, settle, s, v, t, width, middle):
             low = best = middle
         else:
             high = middle
@@ -237,6 +265,7 @@ def _largest_square(
 def passive_profile(
     threats: Threats, places: Floats, step: float, keep: float, accel: float, brake: float,
     line: Floats, caps: Floats, speed: float, time: float, lasting: float, stay: float,
+    settle: float,
 ) -> tuple[Floats, Floats, bool]:  # fmt: skip
     """A fast law from here and now on, from all of which the robot stops in time.
 
@@ -258,6 +287,7 @@ def passive_profile(
         time: When it is there [s].
         lasting: From so long after that on it brakes [s].
         stay: Where it stops, what is on the map has to stay away for so long [s].
+        settle: For so long after its law rests a robot that was under way may still move [s].
 
     Returns:
         (distances [m] (k,), v² there (k,), whether it is proven): to the end of the line or to a
@@ -266,7 +296,8 @@ def passive_profile(
     distances, squares = np.empty(line.size + 1), np.empty(line.size + 1)
     s, v, t = line[0], speed, time
     distances[0], squares[0] = s, v * v
-    proven = _stops(threats, places, step, keep, brake, stay, s, v, t)
+    settles = settle if v > 0.0 else 0.0
+    proven = _stops(threats, places, step, keep, brake, stay, settles, s, v, t)
     n = 1
     for j in range(1, line.size):
         width = line[j] - line[j - 1]
@@ -274,7 +305,7 @@ def passive_profile(
         if proven and t < time + lasting:
             high = min(v * v + 2.0 * accel * width, caps[j])
             square = _largest_square(
-                threats, places, step, keep, brake, stay, s, v, t, width, high
+                threats, places, step, keep, brake, stay, settle, s, v, t, width, high
             )  # fmt: skip
         square = min(square, caps[j])  # it isn't more, but for rounding
         if square < 0.0:

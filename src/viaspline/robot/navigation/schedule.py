@@ -100,6 +100,8 @@ class Schedule:
         waits_for_gap: Whether it stands until what crosses is gone, by a law that goes on then.
         held_up: Set while it stands and knows no way on past what moves.
         proven: The last law from all of which it was proven to stand before anything touches it.
+        stays_put: Whether it doesn't correct its place where it rests: it might be touched
+            meanwhile.
     """
 
     path: Path
@@ -127,6 +129,7 @@ class Schedule:
     waits_for_gap: bool = False
     held_up: HeldUp | None = None
     proven: Trajectory | None = None
+    stays_put: bool = False
 
     @property
     def is_proven(self) -> bool:

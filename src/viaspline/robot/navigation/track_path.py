@@ -149,6 +149,8 @@ def with_command(
         controller = before.on(schedule.path, schedule.trajectory).step(measured, time, work)
         if controller.late > 0.0 and not waited and schedule.giving_up is None:
             schedule = replace(schedule, trajectory=schedule.trajectory.delayed(controller.late))
+    if schedule.stays_put:
+        controller = controller.staying_put()
     return replace(progress, controller=controller.gave(time + work)), schedule
 
 

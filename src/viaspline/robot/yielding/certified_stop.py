@@ -53,6 +53,7 @@ class StopAsked:
         now: When it begins [s].
         meant_stay: How long it would stand where ``upper`` ends [s].
         proven: The law that it has, if it is on this path and an earlier look has proven it.
+        settle: For so long after its law rests the robot may still move [s].
     """
 
     path: Path
@@ -63,6 +64,7 @@ class StopAsked:
     now: float
     meant_stay: float
     proven: Trajectory | None = None
+    settle: float = 0.0
 
 
 def certified_stop(asked: StopAsked) -> Trajectory | None:
@@ -147,5 +149,6 @@ def left_alone_until(asked: StopAsked, law: Trajectory) -> float:
 
 def _law(asked: StopAsked, lasting: float, stay: float = 0.0) -> tuple[Trajectory, bool]:
     return passive_law(
-        asked.path, asked.upper, asked.premises, asked.keep, asked.limits, asked.now, lasting, stay
-    )
+        asked.path, asked.upper, asked.premises, asked.keep, asked.limits, asked.now, lasting, stay,
+        asked.settle,
+    )  # fmt: skip

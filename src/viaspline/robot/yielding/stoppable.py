@@ -6,11 +6,11 @@ Tested through ``robot/yielding/test_stoppable``.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.machine.settling import settled_after_law
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
@@ -18,13 +18,9 @@ from viaspline.robot.navigation.pending_search import FIRST_STAGE, PendingSearch
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import rescheduled
 from viaspline.robot.navigation.schedule import Schedule
-from viaspline.robot.perception.lidar import Scan
-from viaspline.robot.perception.moving.foretell import foretold
-from viaspline.robot.perception.moving.mouths import reach_and_mouths
 from viaspline.robot.perception.perceive import Sighting
 from viaspline.robot.replanning.deadline import STANDING_WORK_S
 from viaspline.robot.run import Event
-from viaspline.robot.state import RobotState
 from viaspline.robot.yielding.certified_stop import (
     STAY_S,
     StopAsked,
@@ -33,17 +29,13 @@ from viaspline.robot.yielding.certified_stop import (
     stay_meant,
 )
 from viaspline.robot.yielding.held_up import rests
-from viaspline.tracks.foresight import Foresight
+from viaspline.robot.yielding.may_come import Sight, kept_to_what_comes, may_come
 from viaspline.tracks.patience import FROZEN, MAX_FROZEN_S, UNSEEING
-from viaspline.trajectory.passive_premises import SAME_PLACE_M, PassivePremises
+from viaspline.trajectory.passive_premises import SAME_PLACE_M
 from viaspline.trajectory.passive_safety import FIRST_STEPS_M, stop_of
 from viaspline.trajectory.retime import braking
 from viaspline.trajectory.trajectory import Trajectory
-from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
-
-NARROWEST_M = 0.2
-"""Nothing that moves comes through a gap that is narrower [m]."""
 
 LEAST_STEP_M = FIRST_STEPS_M[0]
 """One that stands doesn't set off for less: by steps of a hair it would neither come on nor have
@@ -55,41 +47,6 @@ time for which it may stand: one that creeps on by a few centimetres a minute ha
 
 PIECE_S = 0.02
 """A law with a limit of the jerk is taken in pieces of even acceleration, so long [s]."""
-
-ANY_ACCEL_MPS2 = 1e6
-"""What moves may turn at will: nothing is taken for granted but its greatest speed."""
-
-
-@dataclass(frozen=True)
-class Sight:
-    """How much of the world a look has shown.
-
-    Attributes:
-        eye: Where it was taken [m].
-        time: When [s]; a robot with a delay makes up its mind about a later time.
-        reach: All that is there and nearer was seen, or is behind a mouth [m].
-        mouths: Lines through which what was hidden may come [m], (k, 4).
-    """
-
-    eye: tuple[float, ...]
-    time: float
-    reach: float
-    mouths: Floats = field(default_factory=lambda: np.empty((0, 4)))
-
-
-def sight_of(robot: RobotSpec, sensed: object, measured: RobotState, time: float) -> Sight:
-    """What a look shows of the world: a scan what its beams passed, a range sensor all around.
-
-    Args:
-        robot: With its sensor; one without sees nothing.
-        sensed: What was shown.
-        measured: Where the robot is.
-        time: Of the look [s].
-    """
-    if isinstance(sensed, Scan):
-        return Sight(sensed.position, time, *reach_and_mouths(sensed, NARROWEST_M))
-    reach = 0.0 if robot.sensor is None else robot.sensor.reach
-    return Sight(measured.position, time, reach)
 
 
 def stoppable(
@@ -138,18 +95,17 @@ def stoppable(
     if leaves > now + task.reaction:
         stop = braking(progress.distance, 0.0, brake, now)
         return replace(_freed(meant), trajectory=stop, gives_way=True, waits_for_gap=True)
-    strict = Foresight(top_speed=things.max_speed_mps, accel=ANY_ACCEL_MPS2)
-    premises = PassivePremises(
-        _tubes(knowledge, sight.time, strict), sight.time, things.max_speed_mps, sight.eye,
-        sight.reach, sight.mouths, knowledge.charted_moving,
-    )  # fmt: skip
-    keep = task.requirements.outer_radius + task.requirements.tracking_error
+    premises = may_come(knowledge, things.max_speed_mps, sight)
+    keep = kept_to_what_comes(task)
     upper = _in_even_pieces(meant.trajectory, leaves, brake)
     hold = STAY_S if meant.is_round else task.mission.route.hold_s
     stay = stay_meant(meant.trajectory, meant.path, progress.distance, hold)
     proven = before.trajectory if before.is_proven and meant.path is before.path else None
     limits = (task.limits.max_accel, brake)
-    asked = StopAsked(meant.path, upper, premises, keep, limits, leaves, stay, proven)
+    settle = 0.0
+    if task.model is not None and progress.controller is not None:
+        settle = settled_after_law(task.model, brake, progress.controller.period)
+    asked = StopAsked(meant.path, upper, premises, keep, limits, leaves, stay, proven, settle)
     law = certified_stop(asked)
     if law is None:
         law = stop_of(before.trajectory, now, brake)
@@ -253,10 +209,3 @@ def _in_even_pieces(law: Trajectory, now: float, brake: float) -> Trajectory:
         return braking(float(distances[0]), 0.0, brake, now)
     squares[-1] = 0.0
     return Trajectory.through(places, squares, max_accel=brake, start_time=now)
-
-
-def _tubes(knowledge: Knowledge, now: float, strict: Foresight) -> MovingObstacles:
-    """Where everything that was seen to move may be from now on."""
-    tracks = knowledge.hits.tracks if knowledge.hits is not None else ()
-    told = knowledge.tracked.tracks if knowledge.tracked is not None else ()
-    return foretold((*tracks, *told), now, strict)
