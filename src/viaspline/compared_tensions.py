@@ -20,6 +20,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.strip import has_line
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.shared_searches import SharedSearches
 from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.presentable.compared_by_value import ComparedByValue
@@ -137,15 +138,18 @@ def compared_tensions(mission: Mission, world: World, tried: Floats) -> Compared
         basis = basis or [tension_trial(mission, world, 0.0)]
         return ComparedTensions(stands, basis, basis, None)
     by_hand = [t for t in REFERENCES if stands is None or t != stands.tension]
-    basis += [tension_trial(mission, world, t) for t in by_hand]
+    shared = SharedSearches()
+    as_usual = _Trials(mission, world, WorkBudget(math.inf, shared=shared))
+    basis += [as_usual.of(t) for t in by_hand]
     best = _best(basis, basis)
     assert best.plan is not None
     effects = _effects(mission, world, tried, best.plan.tracking_error)
-    more = _Trials(mission, world, WorkBudget(MORE_AMONG_S))
+    more = _Trials(mission, world, WorkBudget(MORE_AMONG_S, shared=shared))
     trials = [*basis, *_explored(more, effects, basis)]
     alike = [trial for trial in trials if not math.isnan(trial.level)]
     fastest = min(alike, key=lambda trial: trial.cost, default=best)
     trials += _refined(more, effects, fastest)
+    shared.forget()
     return ComparedTensions(stands, basis, trials, effects)
 
 
@@ -197,7 +201,7 @@ def _effects(mission: Mission, world: World, tried: Floats, error: float) -> Spa
 
 @dataclass(frozen=True)
 class _Trials:
-    """Trials beyond those that anybody would make by hand.
+    """Trials that have searches in common.
 
     Attributes:
         mission: Of which.

@@ -6,7 +6,7 @@ Tested through ``test_planner``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from viaspline.curve.certificate import PROOF_SLACK_M, Certificate
@@ -159,6 +159,8 @@ def with_error(
         GeometryError: When the mission's numbers contradict each other.
     """
     requirements = Requirements.of(mission, error)
+    if spending is not None:
+        requirements = replace(requirements, shared=spending.shared)
     try:
         found = find_drive(mission, world, requirements)
     except PlanningError as problem:

@@ -18,6 +18,7 @@ from viaspline.planning.problem.least_width import least_width
 from viaspline.planning.problem.objective import Objective
 from viaspline.planning.problem.parts_found import PartsFound
 from viaspline.planning.problem.path_pace import Pace
+from viaspline.planning.problem.shared_searches import SharedSearches
 from viaspline.planning.problem.work_budget import Progress, Value, WorkBudget
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.told_in_lines import told_in_lines
@@ -47,6 +48,7 @@ class Requirements(ComparedByValue):
         detours: Whether they keep to the line between via points; None: where that is long beside
             what stands in it.
         budget: What may be spent on looking for a path; None: as much as it takes.
+        shared: Searches that other plans of the mission have in common with this one, if any.
         parts: What parts have come to of the path that is laid with these; None: they aren't kept.
             Other requirements that are made of these don't have them.
     """
@@ -64,6 +66,7 @@ class Requirements(ComparedByValue):
     objective: Objective = field(default_factory=lambda: Objective("time", Pace.of(RobotSpec())))
     detours: Detours | None = None
     budget: WorkBudget | None = None
+    shared: SharedSearches | None = field(default=None, compare=False, repr=False)
     parts: PartsFound | None = field(default=None, init=False, compare=False, repr=False)
 
     def spend(self, cost: float) -> None:
@@ -133,6 +136,11 @@ class Requirements(ComparedByValue):
     def unbudgeted(self) -> Requirements:
         """These for as long as it takes: parts of searches are kept by them."""
         return self if self.budget is None else replace(self, budget=None)
+
+    @property
+    def without_tension(self) -> Requirements:
+        """These of what has none: lines and turns, and ways among poses."""
+        return replace(self.unbudgeted, spline=SplineSpec())
 
     def within(self, budget: WorkBudget) -> Requirements:
         """These with what may be spent.

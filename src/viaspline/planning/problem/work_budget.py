@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol, Self, TypeVar
 
 from viaspline.errors import GaveUpError
+from viaspline.planning.problem.shared_searches import SharedSearches
 
 LAY_S = 2e-3
 """What every path that is laid costs besides what it is made of [s]."""
@@ -117,6 +118,7 @@ class WorkBudget:
         finished: What parts of the search came to that are over, by what they were asked: a robot
             that stands goes on with them in its next step.
         has_gained: Whether one of them is new.
+        shared: Searches that the plans it is spent on have in common, if any.
 
     Example:
         >>> budget = WorkBudget(0.01)
@@ -129,6 +131,7 @@ class WorkBudget:
     spent: float = 0.0
     finished: dict[Hashable, Any] = field(default_factory=dict, repr=False)
     has_gained: bool = False
+    shared: SharedSearches | None = None
     _under_way: list[Hashable] = field(default_factory=list, init=False, repr=False)
     """What was taken up for parts that aren't over yet, the first one first."""
 

@@ -6,7 +6,7 @@ Tested through ``planning/turning/hybrid_astar/test_pose_search`` and
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -126,7 +126,7 @@ class _Row:
             goals = tuple(leg.goal for leg in legs)
             asked = (world, rho, ramp, starts, goals, effort, window, lines)
             found, is_cut = self.requirements.once(
-                ("poses", *asked), partial(through, legs, starts, self.budget, asked)
+                ("poses", *asked), partial(self._through, legs, asked)
             )
             if not isinstance(found, NotFound):
                 break
@@ -134,6 +134,17 @@ class _Row:
             if not is_cut:
                 break
         return found, seen
+
+    def _through(
+        self, legs: list[RowLeg], asked: tuple[Hashable, ...]
+    ) -> tuple[tuple[Chain, ...] | NotFound, bool]:
+        """The chains in one window; those that a plan with another tension has sought as well."""
+        search = partial(through, legs, self.starts, self.budget, asked)
+        needs, shared = self.requirements, self.requirements.shared
+        if shared is None:
+            return search()
+        budgets = (self.budget,) if needs.budget is None else (self.budget, needs.budget)
+        return shared.once((needs.without_tension, asked), budgets, search)
 
     @property
     def _places(self) -> Floats:
