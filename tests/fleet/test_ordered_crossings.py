@@ -37,7 +37,7 @@ def as_one(crossings: FleetCrossings) -> FleetCrossings:
     whole = [span[:, 0].min(), span[:, 1].max(), span[:, 2].min(), span[:, 3].max()]
     return replace(
         crossings,
-        packed=packed._replace(
+        parts=packed._replace(
             robots=packed.robots[:1], span=np.array([whole]), crossing=0 * packed.crossing
         ),
     )
