@@ -67,6 +67,11 @@ class PassivePremises:
         until = free_until(self.charted.packed, x, y, around, float(self.seen_at))
         return self._packed._replace(free_until=until)
 
+    @property
+    def first_charted(self) -> int:
+        """The first source of what may come that is on the map, as kernels count them."""
+        return 1 + len(self.mouths) + int(self.tubes.packed.speeds.size)
+
     @cached_property
     def _packed(self) -> Threats:
         """What may come, wherever that is asked."""

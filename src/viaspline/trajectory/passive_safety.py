@@ -92,10 +92,7 @@ def at_rest_until(
         >>> at_rest_until(path, 2.0, 1.0, 8.0, look, 0.5)
         inf
     """
-    _check_begin(begin, premises)
-    part = ChordTable.at(path, distance)
-    threats = premises.along(part, keep)
-    return float(kernels.touched_at_rest(threats, part.places, SPACING_M, keep, 0.0, begin, stay))
+    return _touched_at_rest(path, distance, begin, stay, premises, keep, premises.first_charted)
 
 
 def touched_from(
@@ -103,19 +100,7 @@ def touched_from(
 ) -> float:
     """From when on it isn't proven that nothing at all touches a robot which stands [s].
 
-    Args:
-        path: On which it stands.
-        distance: Where, along it [m].
-        begin: From when on [s].
-        stay: For how long [s].
-        premises: What may come.
-        keep: The body's radius and how far beside its path it may be [m].
-
-    Returns:
-        Infinite if nothing does for as long as it stays.
-
-    Raises:
-        GeometryError: When it begins before the look.
+    Args, returns and raises as ``at_rest_until``, which knows of what is on the map alone.
 
     Example:
         >>> from viaspline.world.moving_obstacles import MovingObstacles
@@ -124,10 +109,19 @@ def touched_from(
         >>> round(touched_from(path, 4.0, 0.0, 8.0, look, 0.5), 2)
         1.5
     """
+    return _touched_at_rest(path, distance, begin, stay, premises, keep, 0)
+
+
+def _touched_at_rest(
+    path: Path, distance: float, begin: float, stay: float, premises: PassivePremises, keep: float,
+    first: int,
+) -> float:  # fmt: skip
+    """From when on a robot that stands may be touched by the sources from ``first`` on [s]."""
     _check_begin(begin, premises)
     part = ChordTable.at(path, distance)
-    threats = premises.along(part, keep)
-    return float(kernels.touched_standing(threats, part.places, SPACING_M, keep, 0.0, begin, stay))
+    threats, places = premises.along(part, keep), part.places
+    touched = kernels.touched_at_rest(threats, first, places, SPACING_M, keep, 0.0, begin, stay)
+    return float(touched)
 
 
 def passive_law(

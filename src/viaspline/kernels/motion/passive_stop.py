@@ -143,12 +143,14 @@ def first_contact(threats: Threats, places: Floats, step: float, keep: float, la
 
 @kernel
 def touched_at_rest(
-    threats: Threats, places: Floats, step: float, keep: float, s: float, t: float, stay: float
-) -> float:
-    """From when on it isn't proven that a robot which stands is touched by nothing on the map [s].
+    threats: Threats, first: int, places: Floats, step: float, keep: float, s: float, t: float,
+    stay: float,
+) -> float:  # fmt: skip
+    """From when on it isn't proven that a robot which stands is touched by nothing [s].
 
     Args:
         threats: What may come.
+        first: The first source that counts: 0 for all, ``first_charted`` for those on the map.
         places: See ``first_contact``.
         step: See ``first_contact``.
         keep: See ``first_contact``.
@@ -159,29 +161,7 @@ def touched_at_rest(
     Returns:
         Infinite if it is for as long as it stays.
     """
-    charted = first_charted(threats)
-    return _first_contact(threats, charted, places, step, keep, s, 0.0, 0.0, t, stay)
-
-
-@kernel
-def touched_standing(
-    threats: Threats, places: Floats, step: float, keep: float, s: float, t: float, stay: float
-) -> float:
-    """From when on it isn't proven that a robot which stands is touched by nothing at all [s].
-
-    Args:
-        threats: What may come.
-        places: See ``first_contact``.
-        step: See ``first_contact``.
-        keep: See ``first_contact``.
-        s: Where it stands [m].
-        t: From when on [s].
-        stay: For how long [s].
-
-    Returns:
-        Infinite if it is for as long as it stays.
-    """
-    return _first_contact(threats, 0, places, step, keep, s, 0.0, 0.0, t, stay)
+    return _first_contact(threats, first, places, step, keep, s, 0.0, 0.0, t, stay)
 
 
 @kernel
