@@ -16,7 +16,9 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import run_out
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.replan import from_rest, from_rest_nearby, planned, reflex
+from viaspline.robot.replanning.deadline import STEP_WORK_S
 
 Oracle = Callable[..., Any]
 MODES = [reflex, planned, from_rest]
@@ -205,6 +207,22 @@ def test_from_rest_a_robot_that_never_turns_on_the_spot_goes_on_with_its_wheels_
         assert abs(math.remainder(float(turn), math.tau)) < 1e-4
     assert max(found.path.curvature_jumps()) < 1e-6
     assert curvature_bound(found.path)[0] * radius <= 1.0
+
+
+@pytest.mark.parametrize(("ahead", "reach"), [(3.3, 0.24), (3.5, 0.24), (4.0, 0.24), (12.0, 1.6)])
+def test_near_what_is_in_its_way_a_robot_that_never_turns_on_the_spot_tries_short_run_outs_first(
+    ahead: float, reach: float, shapely_distance: Oracle
+) -> None:
+    robot = {
+        "radius_m": 0.5, "clearance_m": 0.3, "min_turn_radius_m": 1.6, "turn_on_spot": "never",
+    }  # fmt: skip
+    path, world, requirements = start([0, 0], [30, 0], [60, 5], robot=robot)
+    world = world.with_obstacles([disc(10.0 + ahead, 0.0, 1.0)])
+    found = reflex(path, 10.0, world, requirements.within(WorkBudget(STEP_WORK_S)))
+    check(found, path, 10.0, world, shapely_distance, 0.8)
+    left = found.path.parameter(found.changed_from)
+    length = found.path.distance(np.rint(left) + 1.0) - found.changed_from
+    assert length == pytest.approx(reach, abs=1e-3)
 
 
 def test_from_rest_a_body_turns_only_where_nothing_is_in_its_way() -> None:

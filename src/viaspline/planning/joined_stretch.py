@@ -19,7 +19,7 @@ from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.checking.conflicts import is_clear, proven
 from viaspline.planning.departure import (
     BlockedTurnError,
     Departure,
@@ -55,7 +55,7 @@ def joined(
     leave: Leave = rolling,
     rejoin_by: Rejoin = merging,
 ) -> Solution:
-    """The new path with the first run-out, from long to short, that lets it be clear.
+    """The new path with the first run-out that lets it be clear; see ``_run_outs``.
 
     Args:
         path: What is being driven.
@@ -72,7 +72,7 @@ def joined(
     """
     refuse_the_end(path, stretch)
     problem: PlanningError | None = None
-    for reach in _run_outs(stretch, requirements, leave):
+    for reach in _run_outs(path, stretch, world, requirements, leave):
         lay = partial(_join, path, stretch, leave, rejoin_by, world, requirements, reach, until)
         try:
             asked = (path, stretch, leave, rejoin_by, world, reach, until)
@@ -102,11 +102,26 @@ def _once(requirements: Requirements, asked: Hashable, lay: Callable[[], Solutio
     return found
 
 
-def _run_outs(stretch: Stretch, requirements: Requirements, leave: Leave) -> tuple[float, ...]:
-    """The lengths of run-outs that are tried [m]; nothing where there are none."""
+def _run_outs(
+    path: Path, stretch: Stretch, world: World, requirements: Requirements, leave: Leave
+) -> tuple[float, ...]:
+    """The lengths of run-outs that are tried [m]; nothing where there are none.
+
+    From long to short, for a long one is gentle. Where something is in the way within the middle
+    one and a turning radius, a robot that never turns on the spot begins with the short ones: after
+    a long one it can't turn away any more, and to find that out takes a search, while it rolls on
+    past the place where a short one would have done.
+    """
     if leave is not rolling and requirements.turns_at_rest and stretch.tail is None:
         return (0.0,)
-    return tuple(length * max(requirements.required, 0.1) for length in RUN_OUT_LENGTHS)
+    lengths = tuple(length * max(requirements.required, 0.1) for length in RUN_OUT_LENGTHS)
+    turn_radius = requirements.turn_radius
+    if leave is not rolling or requirements.turns_at_rest or turn_radius is None:
+        return lengths
+    reach = float(path.distance(stretch.u)) + lengths[1] + turn_radius
+    end = float(path.parameter(min(reach, path.length)))
+    ahead = path.section(min(stretch.u, end - PASSED_M), end).spans
+    return lengths if is_clear(world, ahead, requirements) else lengths[::-1]
 
 
 def _join(
