@@ -45,11 +45,11 @@ def driven_plan(mission: Mission, world: World, spending: WorkBudget | None = No
         GeometryError: When the mission's numbers contradict each other, or the robot can't follow.
     """
     robot = mission.robot
-    error = robot.tracking_error_m or 0.0
-    if robot.tracking_error_m is None and robot.sensor is not None and is_driven(robot):
-        error = allowance_on_bends(robot, Requirements.of(mission).required)
     if robot.tracking_error_m is not None or not is_driven(robot):
-        return with_error(mission, world, error, spending)
+        return with_error(mission, world, robot.tracking_error_m or 0.0, spending)
+    error = 0.0
+    if robot.sensor is not None:
+        error = allowance_on_bends(robot, Requirements.of(mission).required)
     first = _first_plan(mission, world, error, spending)
     return _with_steering_left(first, error, spending)
 
@@ -66,11 +66,22 @@ def _first_plan(
     try:
         return with_error(mission, world, error, spending)
     except NoPathError as refused:
-        if error > 0.0:
-            with suppress(NoPathError):
-                with_error(mission, world, 0.0, spending)
-                raise unproven(refused, error, mission.robot) from None
-        raise
+        if error <= 0.0 or _is_refused(mission, world, spending):
+            raise
+        raise unproven(refused, error, mission.robot) from None
+
+
+def _is_refused(mission: Mission, world: World, spending: WorkBudget | None) -> bool:
+    """Whether there is no path that keeps nothing for what the robot gets beside it.
+
+    Raises:
+        GaveUpError, GeometryError: As for ``with_error``.
+    """
+    try:
+        with_error(mission, world, 0.0, spending)
+    except NoPathError:
+        return True
+    return False
 
 
 def _with_steering_left(first: Plan, error: float, spending: WorkBudget | None) -> Plan:

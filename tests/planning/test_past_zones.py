@@ -79,6 +79,7 @@ def test_a_slow_zone_is_gone_round_on_the_sooner_side_and_the_ledger_tells_the_o
     assert entry.chosen is not None
     assert entry.chosen.side == "left"
     assert times["left"] < times["right"] < times["through"]
+    assert {one.clearance for one in entry.candidates} == {math.inf}  # nothing stands there
     assert times["through"] == pytest.approx(80 / 2.0 + 20 / 0.5 + 2.0, abs=0.5)
 
 

@@ -12,6 +12,7 @@ from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from operator import attrgetter
 
 import numpy as np
@@ -19,6 +20,7 @@ import numpy as np
 from viaspline.curve.slow_parts import slow_parts
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.world.corner_fans import X, Y
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.checking.driving_time import lost_in_zones
 from viaspline.planning.problem.method import Found
@@ -77,8 +79,7 @@ class ZoneChoices:
 
     def without(self, zones: Zones) -> World:
         """The world with zones as obstacles."""
-        left_out = [self._pace.zones[k] for k in sorted(zones)]
-        return self.world.with_obstacles(zone_obstacles(left_out, self.requirements.required))
+        return self.world.with_obstacles(chain(*(self._blocks[k] for k in sorted(zones))))
 
     def worth_a_path(self) -> Iterator[Zones]:
         """Zones to leave out together, the likeliest first.
@@ -100,13 +101,16 @@ class ZoneChoices:
         return self.requirements.objective.pace
 
     @cached_property
+    def _blocks(self) -> list[tuple[Obstacle, ...]]:
+        """Each zone as obstacles."""
+        return [zone_obstacles((one,), self.requirements.required) for one in self._pace.zones]
+
+    @cached_property
     def _open(self) -> Zones:
         """The zones that may be left out: every via point has room beside them."""
         places = np.array([via.at[:2] for via in self.sequence.vias])
-        required = self.requirements.required
-        blocks = [World(zone_obstacles((zone,), required)) for zone in self._pace.zones]
-        rooms = (block.distance(places).min() for block in blocks)
-        return frozenset(k for k, room in enumerate(rooms) if room > required)
+        rooms = (World(blocks).distance(places).min() for blocks in self._blocks)
+        return frozenset(k for k, room in enumerate(rooms) if room > self.requirements.required)
 
     @cached_property
     def _boxes(self) -> Floats:
@@ -121,18 +125,25 @@ class ZoneChoices:
         near: list[int] = np.flatnonzero(~apart.any(axis=1)).tolist()
         return near
 
-    def _losing(self, leg: int) -> Zones:
-        """The zones that may be left out and that a leg of what was laid leads through."""
-        spans = self.through.leg(leg)[:, :, :2]
-        near = self._open.intersection(self._near(spans.reshape(-1, 2)))
-        return frozenset(k for k in near if slow_parts(spans, [self._pace.zones[k]]))
+    @cached_property
+    def _losing(self) -> list[Zones]:
+        """The zones that may be left out and that each leg of what was laid leads through."""
+        legs = (self.through.leg(leg)[:, :, :2] for leg in range(len(self.sequence.legs)))
+        return [
+            frozenset(
+                k
+                for k in self._open.intersection(self._near(spans.reshape(-1, 2)))
+                if slow_parts(spans, [self._pace.zones[k]])
+            )
+            for spans in legs
+        ]
 
     def _soonest(self, leg: int) -> ZoneWay:
         """The way of a leg that takes least, without as few zones as that takes."""
         plain = self._way(leg, NONE)
         if plain is None:
             return ZoneWay(NONE, np.inf, NONE, np.empty((0, 2)))
-        met = plain.met | self._losing(leg)
+        met = plain.met | self._losing[leg]
         queue, ways = deque([met, *(frozenset({k}) for k in sorted(met))]), {NONE: plain}
         while queue and len(ways) < MOST_WAYS:
             zones = queue.popleft()
@@ -145,7 +156,7 @@ class ZoneChoices:
     def _may_meet(self, leg: int) -> bool:
         """Whether a leg leads through a zone that may be left out, or its shortest way close by."""
         way = self._way(leg, NONE)
-        return way is not None and bool(self._losing(leg) or self._beside(way.corners))
+        return way is not None and bool(self._losing[leg] or self._beside(way.corners))
 
     def _beside(self, corners: Floats) -> Zones:
         """Zones that may be left out, and that a way (n, 2) [m] passes as it does what stands."""

@@ -94,32 +94,31 @@ class Account:
 
     @property
     def _entries(self) -> tuple[LedgerEntry, ...]:
-        compared = (self._as_laid(leg) for leg in sorted(self.passed))
-        entries = (
-            entry if self.through is None else self._with_through(entry, comparison, self.through)
-            for comparison in compared
+        return tuple(
+            self._with_through(self._as_it_is(entry), comparison)
+            for comparison in (self._as_laid(leg) for leg in sorted(self.passed))
             for entry in comparison.entries
         )
-        if self.measured_in is None:
-            return tuple(entries)
-        return tuple(
-            replace(
-                entry,
-                candidates=tuple(self._measured(one, self.measured_in) for one in entry.candidates),
-            )
-            for entry in entries
+
+    def _as_it_is(self, entry: LedgerEntry) -> LedgerEntry:
+        """An entry with what its candidates keep in the world as it is."""
+        world = self.measured_in
+        if world is None:
+            return entry
+        return replace(
+            entry, candidates=tuple(self._measured(one, world) for one in entry.candidates)
         )
 
-    def _with_through(
-        self, entry: LedgerEntry, comparison: Comparison, through: ThroughZones
-    ) -> LedgerEntry:
-        """An entry with the way through the zones in it, if there are any."""
-        taken = entry.chosen
-        if through.names.isdisjoint(entry.members) or taken is None:
+    def _with_through(self, entry: LedgerEntry, comparison: Comparison) -> LedgerEntry:
+        """An entry with the way through the zones in it that are left out, if there are any."""
+        taken, through = entry.chosen, self.through
+        if through is None or taken is None or through.names.isdisjoint(entry.members):
             return entry
         leg, laid = comparison.leg, through.spline_path
-        spans, world = laid.leg(leg.index), self.measured_in or self.world
-        cost = measure_body(spans, world, self.requirements, leg.stands)
+        spans, world = laid.leg(leg.index), self.measured_in
+        cost = measure_body(
+            spans, self.world if world is None else world, self.requirements, leg.stands
+        )
         is_sooner = taken.duration is not None and cost.duration < taken.duration
         candidate = Candidate(
             "through", laid.detours(leg.index), spans, cost.length, cost.duration, cost.clearance,
