@@ -1,7 +1,4 @@
-"""A stretch of a path laid anew, and joined to what stays of it on either side.
-
-Tested through ``planning/test_replan``.
-"""
+"""A stretch of a path laid anew, and joined to what stays of it on either side."""
 
 from __future__ import annotations
 
