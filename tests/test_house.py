@@ -8,6 +8,7 @@ from pathlib import Path
 import grimp
 import pytest
 
+import viaspline as vs
 from viaspline.kernels.loaded_kernels import LoadedKernel
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -40,6 +41,18 @@ def test_no_two_classes_have_the_same_name() -> None:
         if isinstance(node, ast.ClassDef)
     ]
     assert not more_than_once(names)
+
+
+def test_type_checkers_find_every_public_name_where_it_is_imported_from() -> None:
+    (typed,) = (
+        node for node in ast.parse((SOURCE / "__init__.py").read_text()).body
+        if isinstance(node, ast.If)
+    )  # fmt: skip
+    homes = {
+        one.name: node.module for node in typed.body if isinstance(node, ast.ImportFrom)
+        for one in node.names
+    }  # fmt: skip
+    assert homes == {name: f"viaspline.{home}" for name, home in vs._HOMES.items()}
 
 
 def test_arrays_have_their_names_in_one_file() -> None:

@@ -1,6 +1,7 @@
 """Lay a spline through your via points, round whatever stands in the way, proven clear.
 
-The flow is the folder tree: mission → world → curve → detour → trajectory → robot → report.
+The flow is the folder tree:
+mission → world → curve → planning → trajectory → machine → robot → report.
 
 >>> import viaspline as vs
 >>> mission = vs.Mission.model_validate({
@@ -59,6 +60,7 @@ if TYPE_CHECKING:
     from viaspline.mission.world_spec import SpeedZone
     from viaspline.plan_mission import plan
     from viaspline.planner import Plan
+    from viaspline.robot.logbook import Logbook
     from viaspline.robot.navigator import Navigator
     from viaspline.robot.perception.lidar import Scan
     from viaspline.robot.perception.moving.motion_sensor import MovingSighting
@@ -109,8 +111,8 @@ _HOMES = {
     "Path": "curve.path",
     "PiecewiseCubic": "curve.piecewise",
     "Plan": "planner",
-    "ProgressReport": "fleet.execution.fleet_messages",
     "PlanningError": "errors",
+    "ProgressReport": "fleet.execution.fleet_messages",
     "RobotState": "robot.state",
     "Run": "robot.run",
     "SavedPlanError": "errors",
