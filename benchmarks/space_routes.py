@@ -56,6 +56,13 @@ def problems_of(path, every):
     return blocked, rows[:, :7]
 
 
+def room_of(blocked):
+    """What a mission's search sees of these cubes, and of nothing else."""
+    cubes, (x, y, z) = Voxels(blocked, 1.0), blocked.shape
+    world = SpatialWorld.of([cubes], bounds=(0, 0, x, y), band=HeightBand(BALL, z - BALL))
+    return SearchRoom.of_world(world).knowing(world, [cubes])
+
+
 def plans(path, every=10, optimise="length"):
     """Missions from cube to cube, planned as anybody's: laid, proven and timed."""
     import viaspline as vs
@@ -111,7 +118,7 @@ def peers(path, every=500):
 
 def voxels(path, every=1):
     blocked, problems = problems_of(path, every)
-    router = SpaceRouter(SearchRoom.of_voxels(Voxels(blocked, 1.0), BALL))
+    router = SpaceRouter(room_of(blocked))
     timed(router, problems[0, :3] + 0.5, problems[0, 3:6] + 0.5, BALL)
     ratios, times, corners, solved = [], [], [], 0
     for problem in problems:
@@ -137,15 +144,16 @@ def memory():
         blocked[low[0] : high[0], low[1] : high[1], low[2] : high[2]] = True
     blocked[0:3, 0:3, 0:3] = blocked[-3:, -3:, -3:] = False
     blocked.flags.writeable = False
-    small = SpaceRouter(SearchRoom.of_voxels(Voxels(np.zeros((8, 8, 8), bool), 1.0), BALL))
+    small = SpaceRouter(room_of(np.zeros((8, 8, 8), bool)))
     small.find((1, 1, 1), (6, 6, 6), BALL)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     begun = time.perf_counter()
-    room = SearchRoom.of_voxels(Voxels(blocked, 1.0), BALL)
+    room = room_of(blocked)
     packing = time.perf_counter() - begun
     outcome, spent = timed(SpaceRouter(room), (1.5,) * 3, np.array(shape) - 1.5, BALL)
     after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    kept = room.packed.words.nbytes + room.packed.skips.nbytes
+    of_cubes, of_world = room.cubes, room.packed
+    kept = of_cubes.words.nbytes + of_cubes.skips.nbytes + of_world.voxel_words.nbytes
     print(f"{blocked.size / 1e6:.0f} million voxels: {kept / 1e6:.1f} MB kept of them; the process")
     print(f"grew by {(after - before) / 1e3:.0f} MB, beside {blocked.nbytes / 1e6:.0f} MB of input")
     print(f"packed in {packing:.2f} s, one route across in {spent:.1f} ms, cost {outcome.cost:.1f}")

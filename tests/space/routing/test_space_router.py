@@ -95,7 +95,9 @@ def test_a_fast_route_is_faster_than_the_short_one_and_longer() -> None:
 def test_a_route_among_voxels_is_shorter_than_any_along_their_neighbours() -> None:
     cubes = np.zeros((20, 20, 20), bool)
     cubes[10, :, :15] = True
-    room = SearchRoom.of_voxels(Voxels(cubes, 2.0, (5.0, 0.0, 0.0)), 0.9)
+    alone = Voxels(cubes, 2.0, (5.0, 0.0, 0.0))
+    world = SpatialWorld.of([alone], bounds=(5, 0, 45, 40), band=HeightBand(0.9, 39.1))
+    room = SearchRoom.of_world(world).knowing(world, [alone])
     outcome = SpaceRouter(room).find((10.0, 21.0, 3.0), (42.0, 21.0, 3.0), 0.9)
     assert isinstance(outcome, Found)
     steps = 2 * (2 * (7 * math.sqrt(2) + 7) + 2)  # 14 up and 14 down, 8 over and 8 back

@@ -30,7 +30,7 @@ _BLOCKS: WeakKeyDictionary[Voxels, VoxelBlock] = WeakKeyDictionary()
 
 @dataclass(frozen=True, eq=False)
 class SearchRoom:
-    """What a search sees of a world, whichever kind it is.
+    """What a search sees of a world.
 
     Attributes:
         packed: What kernels ask.
@@ -44,7 +44,7 @@ class SearchRoom:
             ball: what is asked of cubes alone is answered several times as fast.
     """
 
-    packed: PackedSpace | VoxelBlock
+    packed: PackedSpace
     body: float
     limits: Floats
     solids: Floats
@@ -53,7 +53,7 @@ class SearchRoom:
 
     @classmethod
     def of_world(cls, world: SpatialWorld) -> SearchRoom:
-        """Of solids, voxels and ground."""
+        """Of a world's solids, voxels and ground, and the limits of its places."""
         packed = world.packed
         limits = np.array([-np.inf] * 3 + [np.inf] * 3)
         if packed.bounds.size:
@@ -102,20 +102,6 @@ class SearchRoom:
         if (places < low).any() or (places > high).any():
             return self.packed  # by a rounding: they keep the bounds
         return cubes._replace(limits=np.concatenate([low, high]))
-
-    @classmethod
-    def of_voxels(cls, voxels: Voxels, radius: float) -> SearchRoom:
-        """Of voxels alone, for a ball that stays inside of their box: the fast way.
-
-        Args:
-            voxels: Cubes.
-            radius: What a place keeps from the sides of the box [m].
-        """
-        extent = np.array(voxels.extent)
-        limits = np.concatenate([extent[:3] + radius, extent[3:] - radius])
-        block = _block_of(voxels)._replace(limits=limits)
-        middle = extent[:3] + 0.5 * voxels.cell
-        return cls(block, 0.0, limits, extent, np.array([*middle, voxels.cell]))
 
     def lattice(
         self, start: Floats, goal: Floats, margin: float, halvings: int = 0,

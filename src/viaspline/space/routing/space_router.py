@@ -61,8 +61,7 @@ class SpaceRouter:
     Attributes:
         room: Where.
         weight: Of the estimate in lattice searches, from 1 on: greater is faster, and longer.
-        voxel_weight: Of it in a room of voxels alone, where one search has to do.
-        cube_weight: Of it in a world in which voxels alone stand, searched there and back.
+        cube_weight: Of it in a world in which voxels alone stand.
         least_cut: A corner is cut off where that gains as much, as a share of the whole cost.
         most_places: Contacts that are looked at.
         most_lines: Lines between contacts that are looked at.
@@ -75,7 +74,6 @@ class SpaceRouter:
 
     room: SearchRoom
     weight: float = 1.1
-    voxel_weight: float = 1.0
     cube_weight: float = 1.05
     least_cut: float = 2e-4
     most_places: int = 1024
@@ -180,14 +178,11 @@ class SpaceRouter:
     def _by_lattice(self, query: RouteQuery, lattice: PlaceLattice) -> TautRoute | None:
         """The better of two routes through the lattice, searched there and back.
 
-        In a room of voxels alone the way back isn't worth its time. What isn't found there, isn't
-        back.
+        What isn't found there, isn't back.
         """
         there = self._there(query, lattice)
         best = self._better(query, there, None)
         if best is None or best.cost > self.worth:
-            return best
-        if not isinstance(self.room.packed, PackedSpace):
             return best
         return self._better(query, self._there(query.reversed, lattice)[::-1].copy(), best)
 
@@ -203,10 +198,7 @@ class SpaceRouter:
         self, space: PackedSpace | VoxelBlock, query: RouteQuery, lattice: PlaceLattice
     ) -> Floats:
         """A way through the lattice that is free in a space."""
-        if isinstance(space, PackedSpace):
-            weight = self.weight
-        else:
-            weight = self.voxel_weight if space is self.room.packed else self.cube_weight
+        weight = self.weight if isinstance(space, PackedSpace) else self.cube_weight
         way: Floats = lattice_way(
             space, query.gates, query.norm, lattice, query.ends[0], query.ends[1], query.radius,
             weight, _COARSE * self.most_cost, self._most_nodes(space),
@@ -218,12 +210,11 @@ class SpaceRouter:
 
     def _by_contacts(self, query: RouteQuery, best: TautRoute | None) -> Floats:
         """One from contact to contact, if it may be cheaper than the best."""
-        packed = self.room.packed
-        if not isinstance(packed, PackedSpace) or self.room.cubes is not None:
+        if self.room.cubes is not None:
             return np.empty((0, 3))  # cubes have no contacts
         bound = _WORTH * (self.most_cost if best is None else min(best.cost, self.most_cost))
         way: Floats = contact_way(
-            packed, query.gates, query.norm, query.ends[0], query.ends[1], query.radius,
+            self.room.packed, query.gates, query.norm, query.ends[0], query.ends[1], query.radius,
             bound, self.most_places, self.most_lines,
         )[0]  # fmt: skip
         return way
@@ -260,8 +251,6 @@ class SpaceRouter:
             return None
         name = ("start", "goal")[side]
         where = (float(place[0]), float(place[1]), float(place[2]))
-        if not isinstance(self.room.packed, PackedSpace):
-            return SpaceRefusal(f"the {name} is nearer than {radius:g} m to a cube", None, where)
         distance, index = space_distances(self.room.packed, place[None])
         if distance[0] >= radius and distance[0] > 0.0:
             return SpaceRefusal(f"the {name} is outside of the heights allowed", None, where)
