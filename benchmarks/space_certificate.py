@@ -18,7 +18,6 @@ import numpy as np
 
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.certificate import PROOF_TOLERANCE_M, certify
-from viaspline.curve.climb_certificate import certify_climb
 from viaspline.curve.height_certificate import certify_heights
 from viaspline.kernels.space.ground_clearance import least_height
 from viaspline.maps.terrain import Terrain
@@ -175,8 +174,6 @@ def heights_above_ground(paths: int) -> None:
             report(f"least height above ground, roughness {rough} m, {kind}", times, "50")
     times = [timed(certify_heights, curve, world) for curve in curves]
     report("all of `certify_heights`, the last of these", times)
-    times = [timed(certify_climb, curve) for curve in curves]
-    report("`certify_climb`, 100 spans", times)
 
 
 def voxels() -> None:
