@@ -1,4 +1,4 @@
-"""Proofs in space: clearance among mixed shapes and along cables, height above ground, climb.
+"""Proofs in space: clearance among mixed shapes and along cables, height above ground.
 
     python benchmarks/space_certificate.py [PATHS]       times
     python benchmarks/space_certificate.py --check 1000  none nearer than proven, every millimetre
