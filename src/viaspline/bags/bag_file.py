@@ -39,15 +39,12 @@ class BagFile:
         self.folder = ResultFolder(path.parent, (path.name,))
 
     @contextmanager
-    def recording(
-        self, asked: Mission, plan: Plan, *, step: float = STEP_S, seed: int = 0
-    ) -> Iterator[StepWatcher]:
+    def recording(self, asked: Mission, plan: Plan, *, seed: int = 0) -> Iterator[StepWatcher]:
         """The block in which a drive is recorded; the file is there when it ends well.
 
         Args:
             asked: The mission as it was asked for.
             plan: Its plan.
-            step: From one look of the sensor to the next [s], as the simulation has it.
             seed: Of the simulation.
 
         Returns:
@@ -61,9 +58,10 @@ class BagFile:
         check_kind("plan", plan, Plan, "give plan(mission)")
         if asked.is_spatial:
             raise GeometryError("a bag holds the drive of one robot in the plane")
-        reaction = longest_step(step)
         with replacing(self.path) as temporary, temporary.open("wb") as file:
             bag = BagWriter(file, bag_book())
-            recorder = DriveRecorder(bag, asked, plan, period=step, reaction=reaction, seed=seed)
+            recorder = DriveRecorder(
+                bag, asked, plan, period=STEP_S, reaction=longest_step(STEP_S), seed=seed
+            )
             yield recorder.note
             bag.finish()

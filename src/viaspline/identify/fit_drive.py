@@ -40,13 +40,14 @@ SPREAD_MARGIN = 1.5
 """By which a spread is wider than the bootstrap's: of few blocks that is too narrow, and what the
 limits are that the fit has to guess adds to it. So estimates are about one spread off."""
 
+SEED = 0  # of the resamples: a log gives the same keys every time
 
-def fit_drive(log: DriveLog, seed: int = 0, wheelbase: float = 0.0) -> IdentifiedDrive:
+
+def fit_drive(log: DriveLog, wheelbase: float = 0.0) -> IdentifiedDrive:
     """What a log shows of its robot's drive.
 
     Args:
         log: Of a drive with changes of speed and of yaw rate.
-        seed: Of the resamples.
         wheelbase: Of a robot whose front wheels steer [m]; 0: its wheels don't.
 
     Raises:
@@ -58,12 +59,12 @@ def fit_drive(log: DriveLog, seed: int = 0, wheelbase: float = 0.0) -> Identifie
     residual = problem.residuals(p)
     _check_fit(problem, residual)
     jacobian = _jacobian(problem, p, free)
-    spread = _bootstrap(problem, residual, jacobian, free, np.random.default_rng(seed))
+    spread = _bootstrap(problem, residual, jacobian, free, np.random.default_rng(SEED))
     along, turned = problem.modelled(p)
     moves = np.abs(np.gradient(along, log.times)) > 0.1
     noises = (
-        fit_noise(log.times, log.along - along, moves, seed),
-        fit_noise(log.times, log.headings - turned, moves, seed),
+        fit_noise(log.times, log.along - along, moves, SEED),
+        fit_noise(log.times, log.headings - turned, moves, SEED),
     )
     return _identified(problem, p, spread, noises)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -49,14 +49,13 @@ def stacked_tables(column: str, tables: Mapping[str, Table]) -> Table:
     return named_columns({column: names, **{name: whole[name] for name in whole.dtype.names}})
 
 
-def coordinates(points: Floats, names: Sequence[str] = ("x_m", "y_m", "z_m")) -> dict[str, Floats]:
+def coordinates(points: Floats) -> dict[str, Floats]:
     """The columns of places.
 
     Args:
         points: Shape (n, d) [m].
-        names: Of the coordinates; the first d of them.
 
     >>> list(coordinates(np.zeros((5, 2))))
     ['x_m', 'y_m']
     """
-    return {names[axis]: points[:, axis] for axis in range(points.shape[1])}
+    return dict(zip(("x_m", "y_m", "z_m"), points.T, strict=False))

@@ -98,16 +98,13 @@ def body_patch(robot: RobotSpec, at: Sequence[float], heading: float) -> Patch:
     return Polygon(corners, alpha=0.85, **look)
 
 
-def draw_headings(
-    axes: Axes, points: Floats, headings: Floats, *, every: float = HEADING_SPACING_PX
-) -> list[Artist]:
+def draw_headings(axes: Axes, points: Floats, headings: Floats) -> list[Artist]:
     """Where a body looks that needn't look the way that it goes, now and then along a curve.
 
     Args:
         axes: Where.
         points: Along the curve [m], shape (n, 2).
         headings: Of the body there [rad], shape (n,).
-        every: From one to the next [pixels].
 
     Returns:
         What belongs in a legend.
@@ -116,7 +113,7 @@ def draw_headings(
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
     if not np.isfinite(along[-1]):
         return []
-    count = max(min(int(along[-1] // every), 80), 1)
+    count = max(min(int(along[-1] // HEADING_SPACING_PX), 80), 1)
     at = np.searchsorted(along, (np.arange(count) + 0.5) * along[-1] / count)
     feet = pixels[at]
     tips = feet + HEADING_LENGTH_PX * np.column_stack((np.cos(headings[at]), np.sin(headings[at])))

@@ -24,15 +24,18 @@ ARROW_SPACING_PX = 105.0  # pixels from one arrow to the next
 
 
 def draw_path(
-    axes: Axes, points: Floats, *, colour: str = style.PATH, width: float = style.PATH_WIDTH_PT,
-    label: str = "path", zorder: float = 8, **look: object,
-) -> Line2D:  # fmt: skip
+    axes: Axes,
+    points: Floats,
+    *,
+    colour: str = style.PATH,
+    label: str = "path",
+    zorder: float = 8,
+) -> Line2D:
     """A curve with a white edge, so that it stands out from what it crosses."""
+    edge = Stroke(linewidth=style.PATH_WIDTH_PT + 1.6, foreground="white", alpha=0.85)
     (line,) = axes.plot(
-        *points.T, color=colour, linewidth=width, zorder=zorder, label=label,
-        solid_capstyle="round", scalex=False, scaley=False,
-        path_effects=[Stroke(linewidth=width + 1.6, foreground="white", alpha=0.85), Normal()],
-        **look,  # type: ignore[arg-type]
+        *points.T, color=colour, linewidth=style.PATH_WIDTH_PT, zorder=zorder, label=label,
+        solid_capstyle="round", scalex=False, scaley=False, path_effects=[edge, Normal()],
     )  # fmt: skip
     return line
 

@@ -33,14 +33,13 @@ def cell_size(world: World, box: Box) -> float:
     return max(min(sides, default=CELL_M), math.sqrt(area / MOST_CELLS))
 
 
-def occupancy(time: float, world: World, box: Box, frame: str = MAP_FRAME) -> dict[str, Any]:
+def occupancy(time: float, world: World, box: Box) -> dict[str, Any]:
     """A world as a message: a cell is occupied if something is nearer to its middle than its edge.
 
     Args:
         time: [s].
         world: What is known.
         box: What is shown of it: x_min, y_min, x_max, y_max [m].
-        frame: In which it is.
 
     Example:
         >>> from viaspline.mission.shapes.obstacle import Obstacle
@@ -55,7 +54,7 @@ def occupancy(time: float, world: World, box: Box, frame: str = MAP_FRAME) -> di
     none = np.empty((0, 0), np.uint8)
     cells = rasterized(world.packed, box[0], box[1], side, height, width, 0.5 * side, none)
     return {
-        "header": header(time, frame),
+        "header": header(time, MAP_FRAME),
         "info": {
             "map_load_time": stamp_of(time),
             "resolution": side,

@@ -22,10 +22,10 @@ SQUARES = 44  # along the longer side of the view
 SHOWN_S = 0.05  # of a square that isn't white
 
 
-def waiting_seconds(plan: FleetPlan, view: Box, squares: int = SQUARES) -> Floats:
+def waiting_seconds(plan: FleetPlan, view: Box) -> Floats:
     """How much time all robots together lose in squares of a view [s], rows from below."""
     lost = lost_times(plan).all
-    size = max(view[2] - view[0], view[3] - view[1]) / squares
+    size = max(view[2] - view[0], view[3] - view[1]) / SQUARES
     counts = [max(round((view[k + 2] - view[k]) / size), 1) for k in (1, 0)]
     x, y = plan.courses.packed.place.T
     sums: Floats = np.histogram2d(

@@ -67,26 +67,26 @@ def spatial_sheet(
     total_w, total_h = LEFT + width + GAP + ASIDE + RIGHT, below + height + TOP
     figure = new_figure(total_w, total_h, dpi)
 
-    def axes_at(left: float, bottom: float, wide: float, tall: float, share: Axes | None) -> Axes:
-        box = (left / total_w, bottom / total_h, wide / total_w, tall / total_h)
+    def axes_at(bottom: float, wide: float, tall: float, share: Axes | None) -> Axes:
+        box = (LEFT / total_w, bottom / total_h, wide / total_w, tall / total_h)
         axes = figure.add_axes(box, sharex=share)
         tidy(axes)
         return axes
 
-    plan = axes_at(LEFT, below, width, height, None)
+    plan = axes_at(below, width, height, None)
     middle = (view[0] + view[2]) / 2, (view[1] + view[3]) / 2
     plan.set_xlim(middle[0] - width / scale / 2, middle[0] + width / scale / 2)
     plan.set_ylim(middle[1] - height / scale / 2, middle[1] + height / scale / 2)
     plan.set_xlabel("x, east [m]", labelpad=2)
     plan.set_ylabel("y, north [m]", labelpad=2)
     inner = total_w - LEFT - RIGHT
-    elevation = axes_at(LEFT, BOTTOM + 2 * (STRIP + BETWEEN), inner, ELEVATION, None)
+    elevation = axes_at(BOTTOM + 2 * (STRIP + BETWEEN), inner, ELEVATION, None)
     elevation.set_ylabel("height [m]", labelpad=2)
     elevation.tick_params(labelbottom=False)
     drawn = []
     for k, name in enumerate(strips):
         bottom = BOTTOM + (len(strips) - 1 - k) * (STRIP + BETWEEN)
-        strip = axes_at(LEFT, bottom, inner, STRIP, elevation)
+        strip = axes_at(bottom, inner, STRIP, elevation)
         strip.set_ylabel(name, labelpad=2)
         strip.tick_params(labelbottom=k == len(strips) - 1)
         drawn.append(strip)
