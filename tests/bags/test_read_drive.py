@@ -121,7 +121,7 @@ def test_our_own_bag_is_read_as_well(
 
 def test_topics_are_chosen_or_asked_for(tmp_path: Path) -> None:
     bag = record(tmp_path / "a", odometry=("/wheels", "/imu"), commands=("/drive",))
-    with pytest.raises(BagError, match="has odometry on /wheels, /imu; say which one"):
+    with pytest.raises(BagError, match="has odometry on /wheels, /imu; choose one with --odometry"):
         read_drive(bag)
     drive = read_drive(bag, odometry="/imu")
     assert (drive.odometry_topic, drive.command_topic) == ("/imu", "/drive")

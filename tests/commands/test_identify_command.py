@@ -93,6 +93,8 @@ def test_commands_are_written_with_the_ground_that_they_take(tmp_path: Path) -> 
         (["--drive", "b.csv", "--wheelbase", "1"], 2, "not both"),
         (["a.csv", "--wheelbase", "0"], 2, "--wheelbase"),
         (["none.csv"], 2, "no such file"),
+        (["a.csv", "--odometry", "/odom"], 2, "for logs of ROS 2"),
+        (["--drive", "b.csv", "--commands", "/cmd_vel"], 2, "not both"),
         (["--drive", "c.csv", "--seed", "1"], 2, "--seed goes with --on"),
         (["--drive", "/nowhere/c.csv"], 2, "no such file"),
     ],
@@ -118,6 +120,17 @@ def test_a_recorded_drive_is_identified_from_its_bag(tmp_path: Path) -> None:
     bag = tmp_path / "drive.mcap"
     out = ["--out", str(tmp_path / "out"), "--quiet"]
     assert CliRunner().invoke(cli, ["run", str(mission), "--bag", str(bag), *out]).exit_code == 0
-    result = CliRunner().invoke(cli, ["identify", str(bag), "--track", "0.4"])
+    result = run(bag, "--track", "0.4")
     assert result.exit_code == 0, result.output
     assert "delay_s:" in result.output
+    assert not result.stderr
+    named = run(bag, "--track", "0.4", "--odometry", "/odom", "--commands", "/cmd_vel")
+    assert named.stdout == result.stdout
+    other = run(bag, "--odometry", "/wheels")
+    assert other.exit_code == 2
+    assert "no odometry on /wheels; it has /odom" in other.output
+    cut = tmp_path / "cut.mcap"
+    cut.write_bytes(bag.read_bytes()[: bag.stat().st_size * 3 // 4])
+    short = run(cut, "--track", "0.4")
+    assert short.exit_code == 0, short.output
+    assert "is cut short" in short.stderr

@@ -121,7 +121,7 @@ class _Chosen:
         if not full:
             names = " or ".join(kinds)
             raise BagError(self.path, f"holds no {what} ({names}); record it, too")
-        raise BagError(self.path, f"has {what} on {', '.join(full)}; say which one")
+        raise BagError(self.path, f"has {what} on {', '.join(full)}; choose one with --{what}")
 
 
 def _odometry_rows(messages: Sequence[RawMessage], decoder: MessageDecoder) -> tuple[Floats, float]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from viaspline.bounded_file import is_folder
-from viaspline.report.terminal_lines import say
+from viaspline.report.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
     from viaspline.identify.drive_log import DriveLog
@@ -23,9 +23,8 @@ TRACK_M = 0.5
 
 @click.command()
 @click.argument("log", type=click.Path(path_type=Path), required=False)
-@click.option(
-    "--out", type=click.Path(path_type=Path), metavar="FILE", help="Write the keys there."
-)
+@click.option("--out", type=click.Path(path_type=Path), metavar="FILE",
+              help="Write the keys to a file instead.")  # fmt: skip
 @click.option(
     "--track",
     type=ABOVE_0,
@@ -36,34 +35,40 @@ TRACK_M = 0.5
     "--wheelbase",
     type=ABOVE_0,
     metavar="METRES",
-    help="Of a robot whose front wheels steer: from the rear axle to the front.",
+    help="Rear axle to front axle, of a robot whose front wheels steer.",
 )
+@click.option("--odometry", metavar="TOPIC", help="Of a ROS 2 log that has several.")
+@click.option("--commands", metavar="TOPIC", help="Likewise: the cmd_vel that the robot followed.")
 @click.option("--drive", "drive", type=click.Path(path_type=Path), metavar="OUT",
-              help="Write the commands of a drive that shows enough, and stop.")  # fmt: skip
-@click.option("--max-speed", type=ABOVE_0, metavar="MPS", help="Of those.  [default: 1]")
-@click.option("--max-yaw-rate", type=ABOVE_0, metavar="RADPS", help="Of those.  [default: 0.8]")
+              help="Write the commands of a drive that shows enough, and fit nothing.")  # fmt: skip
+@click.option("--max-speed", type=ABOVE_0, metavar="MPS",
+              help="With --drive: top speed.  [default: 1]")  # fmt: skip
+@click.option("--max-yaw-rate", type=ABOVE_0, metavar="RADPS",
+              help="With --drive: top yaw rate.  [default: 0.8]")  # fmt: skip
 @click.option(
     "--turn-radius",
     type=ABOVE_0,
     metavar="METRES",
-    help="The tightest circle of a robot that steers; none of those is tighter.",
+    help="With --drive: the tightest circle of a robot that steers.",
 )
-@click.option("--period", type=ABOVE_0, metavar="SECONDS", help="Of those.  [default: 0.05]")
+@click.option("--period", type=ABOVE_0, metavar="SECONDS",
+              help="With --drive: between commands.  [default: 0.05]")  # fmt: skip
 @click.option("--on", "mission", type=click.Path(path_type=Path), metavar="MISSION",
-              help="Drive them on a mission's simulated robot; OUT is the log.")  # fmt: skip
+              help="With --drive: drive a mission's simulated robot; OUT is its log.")  # fmt: skip
 @click.option("--seed", type=click.IntRange(min=0), metavar="N",
-              help="Of its noise.  [default: 0]")  # fmt: skip
+              help="With --on: seed of its noise.  [default: 0]")  # fmt: skip
 def identify(
     log: Path | None, out: Path | None, track: float | None, wheelbase: float | None,
-    drive: Path | None, max_speed: float | None, max_yaw_rate: float | None,
-    turn_radius: float | None, period: float | None, mission: Path | None, seed: int | None,
+    odometry: str | None, commands: str | None, drive: Path | None, max_speed: float | None,
+    max_yaw_rate: float | None, turn_radius: float | None, period: float | None,
+    mission: Path | None, seed: int | None,
 ) -> None:  # fmt: skip
-    """Fit delay, lag, limits, noise and slip of a robot's drive to a log of it.
+    """Fit a robot's drive to a log of it: delay, lag, limits, noise, slip.
 
     LOG is a CSV file with the columns time_s, x_m, y_m, heading_rad (or heading_deg),
-    speed_command_mps and yaw_rate_command_radps, a command from its row to the next; or a log of
-    ROS 2 with odometry and cmd_vel (.mcap, .db3, a folder of rosbag2). Prints the keys robot.drive
-    and the like, each with its spread, to paste into a mission.
+    speed_command_mps and yaw_rate_command_radps, where a command holds from its row to the next; or
+    a ROS 2 log with odometry and cmd_vel (.mcap, .db3, a folder of rosbag2). Prints robot.drive and
+    the keys beside it, each with its spread, to paste into a mission.
 
     \b
     Examples:
@@ -75,7 +80,7 @@ def identify(
       viaspline identify --drive log.csv --on examples/depot-cart.yaml    in simulation
     """  # noqa: D301  (click looks for the character, not for a backslash)
     if drive is not None:
-        if any(value is not None for value in (log, out, track, wheelbase)):
+        if any(value is not None for value in (log, out, track, wheelbase, odometry, commands)):
             raise click.UsageError("give LOG to fit it, or --drive to write commands, not both")
         _write_commands(
             drive, max_speed or 1.0, max_yaw_rate or 0.8, turn_radius, period or 0.05, mission, seed
@@ -94,7 +99,7 @@ def identify(
     from viaspline.identify.fit_drive import fit_drive
     from viaspline.identify.identified_drive import drive_block
 
-    found = fit_drive(_read(log), wheelbase=wheelbase or 0.0)
+    found = fit_drive(_read(log, odometry, commands), wheelbase=wheelbase or 0.0)
     keys = drive_block(found, TRACK_M if track is None else track)
     block = f"# fitted to {found.seconds:.0f} s of {log.name}\n{keys}"
     if out is None:
@@ -104,14 +109,19 @@ def identify(
         say(f"delay {found.delay} s, lag {found.lag} s", f"wrote {out}")
 
 
-def _read(log: Path) -> DriveLog:
-    """A log in any of the formats that are understood."""
+def _read(log: Path, odometry: str | None, commands: str | None) -> DriveLog:
+    """A log in any of the formats that are understood; of a bag by these topics."""
     if is_folder(log) or log.suffix.lower() in BAGS:
         from viaspline.bags.read_drive import read_drive
         from viaspline.identify.merged_log import merged_log
 
-        found = read_drive(log)
+        found = read_drive(log, odometry=odometry, commands=commands)
+        if found.damage is not None:
+            words = f"{log} is cut short ({found.damage}); fitted is what is whole"
+            say_error(words, prefix="note: ")
         return merged_log(found.times, found.poses, found.command_times, found.commands[:, [0, 2]])
+    if odometry is not None or commands is not None:
+        raise click.UsageError("--odometry and --commands are for logs of ROS 2; this is a table")
     from viaspline.identify.drive_log import read_drive_csv
 
     return read_drive_csv(log)
