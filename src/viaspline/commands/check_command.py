@@ -19,7 +19,9 @@ from viaspline.report.terminal_lines import say
     "--schema", is_flag=True, help="Print the JSON Schema of missions and fleets, for editors."
 )
 def check(mission: Path | None, schema: bool) -> None:
-    r"""Say whether a mission is sound: every fault at once, as file:line:column: key: what.
+    r"""Check a mission: every fault at once, each with its line.
+
+    A fault is one line: file:line:column: key: what is wrong, and what would be right.
 
     \b
     Examples:

@@ -15,4 +15,6 @@ OUT: Final = click.option(
     "--out", type=click.Path(path_type=Path), metavar="DIR",
     help="Folder for the results.  [default: viaspline-out/<name of the mission>]",
 )  # fmt: skip
-QUIET: Final = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
+QUIET: Final = click.option(
+    "--quiet", "-q", is_flag=True, help="Print nothing unless something goes wrong."
+)

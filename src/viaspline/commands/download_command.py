@@ -6,7 +6,8 @@ from pathlib import Path
 
 import click
 
-from viaspline.commands.link_options import ADDRESSES, QUIET, SYSTEM, WAIT, talking_to, telling
+from viaspline.commands.common_options import QUIET
+from viaspline.commands.link_options import ADDRESSES, SYSTEM, WAIT, talking_to, telling
 from viaspline.report.terminal_lines import say
 
 
@@ -17,7 +18,9 @@ from viaspline.report.terminal_lines import say
 @WAIT
 @QUIET
 def download(out: Path, address: str, system: int | None, wait: float, quiet: bool) -> None:
-    r"""Read a vehicle's mission, fence and rally points over MAVLink into a .plan file.
+    r"""Read a vehicle's mission into a .plan file, over MAVLink.
+
+    With its fence and its rally points.
 
     \b
     Example:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viaspline.commands.link_options import ADDRESSES, ORIGIN, QUIET, SYSTEM, WAIT
+from viaspline.commands.common_options import MISSION, QUIET
+from viaspline.commands.link_options import ADDRESSES, ORIGIN, SYSTEM, WAIT
 from viaspline.commands.rmw_option import RMW
 
 if TYPE_CHECKING:
@@ -15,24 +16,24 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("mission", type=click.Path(path_type=Path))
+@MISSION
 @click.option("--mavlink", metavar="ADDRESS", help=f"An autopilot: {ADDRESSES}")
 @click.option("--ros", is_flag=True, help="A robot that speaks ROS 2.")
-@click.option("--from-here", is_flag=True, help="The path begins where the vehicle stands.")
-@click.option("--arm", is_flag=True, help="MAVLink: arm it; else a person has to.")
+@click.option("--from-here", is_flag=True, help="Begin the path where the vehicle stands.")
+@click.option("--arm", is_flag=True, help="MAVLink: arm the vehicle; otherwise a person has to.")
 @ORIGIN
 @SYSTEM
 @WAIT
 @RMW
 @click.option("--connect", metavar="ENDPOINT",
-              help="ROS: the router of rmw_zenoh.  [default: tcp/localhost:7447]")  # fmt: skip
+              help="ROS: the rmw_zenoh router.  [default: tcp/localhost:7447]")  # fmt: skip
 @click.option("--domain", type=click.IntRange(0, 232), default=0, show_default=True, metavar="N",
               envvar="ROS_DOMAIN_ID", help="ROS: ROS_DOMAIN_ID.")  # fmt: skip
 @click.option("--distro", default="jazzy", show_default=True, metavar="NAME", envvar="ROS_DISTRO",
-              help="ROS: ROS_DISTRO of the robot.")  # fmt: skip
+              help="ROS: the robot's ROS_DISTRO.")  # fmt: skip
 @click.option("--rate", type=click.FloatRange(10.0, 200.0), default=20.0, show_default=True,
-              metavar="HZ", help="ROS: steps in a second, where no scan comes sooner.")  # fmt: skip
-@click.option("--stay", is_flag=True, help="ROS: wait for goals at the end, until Ctrl-C.")
+              metavar="HZ", help="ROS: least steps per second; each scan is one, too.")  # fmt: skip
+@click.option("--stay", is_flag=True, help="ROS: wait for further goals at the end, until Ctrl-C.")
 @QUIET
 def drive(
     mission: Path, mavlink: str | None, ros: bool, from_here: bool, arm: bool, origin: str | None,
@@ -41,18 +42,18 @@ def drive(
 ) -> None:  # fmt: skip
     r"""Drive a mission with a real vehicle: its motors move.
 
-    Over MAVLink it is put into GUIDED (ArduPilot) or OFFBOARD (PX4) and led along the path; at the
-    end, on Ctrl-C and when the link is lost it is stopped and holds. Whoever changes its mode has
-    it from then on.
+    Over MAVLink the vehicle is put into GUIDED (ArduPilot) or OFFBOARD (PX4) and led along the
+    path. At the end, on Ctrl-C and when the link is lost it is stopped and holds. Whoever changes
+    its mode takes it over from then on.
 
-    Over ROS 2 it hears odometry, tf, scans, maps and goals, and says cmd_vel, the path and how it
-    goes; the mission's ros: says how they are called, Nav2's names are the defaults. It stands
-    while anything that it needs is older than 0.2 s, at the end, and on Ctrl-C. The robot's base
-    has to stop by itself when cmd_vel ceases. --rmw zenoh reaches nodes with rmw_zenoh, --rmw dds
-    those with rmw_fastrtps (ROS 2's default) or rmw_cyclonedds.
+    Over ROS 2 it subscribes to odometry, tf, scans, maps and goals, and publishes cmd_vel, the path
+    and its progress. Topics are named by the mission's key ros; Nav2's names are the defaults. The
+    robot stands while anything that it needs is older than 0.2 s, at the end, and on Ctrl-C. Its
+    base has to stop by itself when cmd_vel ceases. --rmw zenoh reaches nodes with rmw_zenoh, --rmw
+    dds those with rmw_fastrtps (ROS 2's default) or rmw_cyclonedds.
 
     \b
-    Example:
+    Examples:
       viaspline drive patrol.yaml --mavlink udp:0.0.0.0:14550 --origin 47.1,8.2 --from-here
       viaspline drive patrol.yaml --ros --from-here
       viaspline drive patrol.yaml --ros --rmw dds --domain 5

@@ -14,6 +14,7 @@ from viaspline.commands.command_steps import (
     progress_bar,
     result_folder,
 )
+from viaspline.commands.common_options import QUIET
 from viaspline.report.proven_reference import with_meaning
 from viaspline.report.terminal_lines import say
 
@@ -40,28 +41,29 @@ METRES = click.FloatRange(min=0.0, max=1e4)
 )  # fmt: skip
 @click.option(
     "--chord-error", type=METRES, metavar="M",
-    help="How far the lines may be from the curve.  [default: clearance / 10, 0.01 to 0.25]",
+    help="How far the lines may be from the curve.  [default: a tenth of the clearance, 0.01 to "
+    "0.25]",
 )  # fmt: skip
 @click.option(
     "--acceptance", type=METRES, metavar="M",
-    help="How near to a way point the vehicle turns to the next.  [default: what can be proven]",
+    help="How near to a way point the vehicle turns to the next.  [default: as can be proven]",
 )  # fmt: skip
 @click.option(
     "--spacing", type=METRES, metavar="M",
-    help="The longest line.  [default: 0.1 for nav_msgs/Path, else as long as may be]",
+    help="Longest line.  [default: 0.1 for nav_msgs/Path, else no limit]",
 )  # fmt: skip
-@click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
+@QUIET
 def export_command(
     mission: Path, out: Path, origin: str | None, chord_error: float | None,
     acceptance: float | None, spacing: float | None, quiet: bool,
 ) -> None:  # fmt: skip
-    r"""Write the proven path of a mission into a file of another program.
+    r"""Write a mission's proven path in another program's format.
 
-    IN is a mission of any format, or the folder of a plan that was saved, which is proven again
-    instead of planned. OUT says the format by its ending: .plan (QGroundControl),
-    .waypoints or .txt (QGC WPL 110), .path.yaml or .mcap (nav_msgs/Path), .geojson, .kml, .gpx,
-    .csv or .json. The path becomes straight lines, few of them, which are proven again as the file
-    has them. Of a fleet each robot has a file of its own, OUT with the robot's name.
+    IN is a mission in any format, or the folder of a saved plan, which is proven again instead of
+    planned. The ending of OUT says the format: .plan (QGroundControl), .waypoints or .txt (QGC WPL
+    110), .path.yaml or .mcap (nav_msgs/Path), .geojson, .kml, .gpx, .csv or .json. The path becomes
+    few straight lines, which are proven again as the file has them. For a fleet each robot gets its
+    own file: OUT with the robot's name in it.
 
     \b
     Examples:

@@ -26,7 +26,7 @@ FIGURE_NAMES: Final = tuple(
 )  # fmt: skip
 @QUIET
 def figures(out: Path, quiet: bool) -> None:
-    r"""Make the figures of the paper again, and one that it lacks.
+    r"""Make the figures of the paper anew, and one that it lacks.
 
     \b
     Example:

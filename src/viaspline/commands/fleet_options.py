@@ -1,4 +1,4 @@
-"""Options that mean something to fleets only.
+"""Options for fleets only.
 
 Tested through ``test_cli`` and ``commands/test_fleet_steps``.
 """
@@ -11,15 +11,15 @@ import click
 
 IMPROVE: Final = click.option(
     "--improve", type=click.FloatRange(min=0.0, max=1e6), default=0.0, metavar="SECONDS",
-    help="For so long sooner orders of a fleet's robots are sought.  [default: 0]",
+    help="How long to look for orders by which a fleet arrives sooner.  [default: 0]",
 )  # fmt: skip
 WORKERS: Final = click.option(
     "--workers", type=click.IntRange(1, 61), metavar="N",
-    help="So many processes lay a fleet's paths.  [default: one for each core where that pays]",
+    help="How many processes lay a fleet's paths.  [default: one per core where that pays]",
 )  # fmt: skip
 SCHEDULER: Final = click.option(
     "--scheduler", metavar="ADDRESS",
-    help="A cluster of dask.distributed lays them: the address of its scheduler.",
+    help="Lay them on a cluster of dask.distributed: the address of its scheduler.",
 )  # fmt: skip
 
 

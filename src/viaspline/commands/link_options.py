@@ -1,4 +1,4 @@
-"""Options that all commands have that speak to a vehicle.
+"""Options of the commands that talk to a vehicle.
 
 Tested through ``commands/test_upload_command``.
 """
@@ -15,24 +15,23 @@ if TYPE_CHECKING:
     from viaspline.links.mavlink.conversation import Conversation
 
 PATIENCE_S = 30.0
-"""How long an autopilot is waited for, and until it is ready, if nobody says [s]."""
+"""How long to wait for an autopilot, and for it to be ready, where nothing is said [s]."""
 
 ADDRESSES = "udp:HOST:PORT, udpout:HOST:PORT, tcp:HOST:PORT or serial:DEVICE[:BAUD]."
 
 SYSTEM = click.option(
     "--system", type=click.IntRange(1, 255), metavar="N",
-    help="Which vehicle, if there is more than one on the link.",
+    help="Which vehicle, if there are several on the link.",
 )  # fmt: skip
 ORIGIN = click.option(
     "--origin", metavar="LAT,LON",
-    help="Where on earth the mission's 0, 0 is, if its file is in metres.  [default: as set in the "
-    "studio]",
+    help="Latitude and longitude of the mission's 0, 0, if its file is in metres.  "
+    "[default: as set in the studio]",
 )  # fmt: skip
 WAIT = click.option(
     "--wait", type=click.FloatRange(min=1.0, max=86400.0), default=PATIENCE_S, show_default=True,
-    metavar="SECONDS", help="How long an autopilot is waited for, and until it is ready.",
+    metavar="SECONDS", help="How long to wait for an autopilot, and for it to be ready.",
 )  # fmt: skip
-QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
 
 
 @contextmanager

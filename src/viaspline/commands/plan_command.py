@@ -31,12 +31,12 @@ def plan(
     mission: Path, out: Path | None, improve: float, workers: int | None, scheduler: str | None,
     quiet: bool,
 ) -> None:  # fmt: skip
-    r"""Plan a mission: the path, its proof and what it was chosen from.
+    r"""Plan a mission: its path, its proof, and the ways not taken.
 
-    Writes plan.json, path.csv, plan.png, planned-mission.yaml (with which load_plan in Python reads
-    the plan again) and timing.json; of a fleet fleet.json, fleet.png, courses.npz and
-    planned-fleet.yaml (with which load_fleet_plan reads it again) and timing.json, and for each
-    robot a folder with its plan.json and path.csv.
+    Writes plan.json, path.csv, plan.png, planned-mission.yaml and timing.json; vs.load_plan reads
+    that folder again. For a fleet it writes fleet.json, fleet.png, courses.npz, planned-fleet.yaml
+    and timing.json, and a folder for each robot with its plan.json and path.csv;
+    vs.load_fleet_plan reads those again.
 
     \b
     Example:

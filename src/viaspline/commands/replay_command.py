@@ -9,6 +9,7 @@ import click
 from viaspline.bags.rosbag2_reader import NO_SUCH_BAG
 from viaspline.bounded_file import is_there
 from viaspline.commands.command_steps import progress_bar
+from viaspline.commands.common_options import QUIET
 from viaspline.errors import BagError
 from viaspline.exit_codes import NOT_REACHED
 from viaspline.report.terminal_lines import say, say_error
@@ -18,15 +19,15 @@ from viaspline.report.terminal_lines import say, say_error
 @click.argument("bag", type=click.Path(path_type=Path))
 @click.option(
     "--tolerance", type=click.FloatRange(min=0.0, max=1.0), default=1e-9, show_default=True,
-    help="What numbers may differ by, as a part of 1 and of themselves.",
+    help="Largest difference between two numbers, absolute and relative.",
 )  # fmt: skip
-@click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
+@QUIET
 def replay(bag: Path, tolerance: float, quiet: bool) -> None:
-    r"""Drive again what `viaspline run --bag` has recorded, and compare what is decided.
+    r"""Replay a log of `run --bag`: does it decide the same today?
 
-    The navigator is given, step by step, what it was given then. Says at which step it decides
-    otherwise, if at any: then the exit code is 4. Of a bag that is cut short, what is whole is
-    driven again. Needs pip install 'viaspline[bags]'.
+    The navigator is given step by step what it was given then. Where it decides otherwise, the step
+    is printed and the exit code is 4. A bag that was cut short is replayed up to its last whole
+    step. Needs pip install 'viaspline[bags]'.
 
     \b
     Example:

@@ -1,4 +1,4 @@
-"""By what a robot's nodes speak: in words of ours, or as ``RMW_IMPLEMENTATION`` has it.
+"""The middleware of a robot's nodes: in words of ours, or as ``RMW_IMPLEMENTATION`` has it.
 
 Tested through ``commands/test_drive_command``.
 """
@@ -19,7 +19,7 @@ NAMES: Final[Mapping[str, str]] = {
     "rmw_fastrtps_dynamic_cpp": "dds",
     "rmw_connextdds": "dds",
 }
-"""By what nodes speak, by all names that it has."""
+"""The two kinds, by all their names."""
 
 
 class RmwName(click.ParamType[str]):
@@ -37,5 +37,5 @@ class RmwName(click.ParamType[str]):
 
 RMW = click.option(
     "--rmw", type=RmwName(), default="zenoh", show_default=True, metavar="zenoh|dds",
-    envvar="RMW_IMPLEMENTATION", help="ROS: by what the robot's nodes speak.",
+    envvar="RMW_IMPLEMENTATION", help="ROS: the middleware of the robot's nodes.",
 )  # fmt: skip

@@ -32,32 +32,35 @@ from viaspline.commands.fleet_options import (
     metavar="N",
     default=0,
     show_default=True,
-    help="Of what is random.",
+    help="Seed of what is random in the simulation.",
 )
 @click.option(
-    "--animate", type=click.Path(path_type=Path), metavar="FILE", help="A .gif or .mp4 of the run."
+    "--animate",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Film the run: a .gif or .mp4.",
 )
 @click.option(
     "--bag",
     type=click.Path(path_type=Path),
     metavar="FILE.mcap",
-    help="A log of the drive for Foxglove, RViz and `viaspline replay`.",
+    help="Log the drive for Foxglove, RViz and `viaspline replay`.",
 )
 @click.option(
     "--real-time",
     is_flag=True,
-    help="Let re-plans take what they take here, by the clock: no two runs are the same then.",
+    help="Give re-plans the time that they take on this machine; no two runs are then alike.",
 )
 @QUIET
 def run(
     mission: Path, out: Path | None, improve: float, workers: int | None, scheduler: str | None,
     seed: int, animate: Path | None, bag: Path | None, real_time: bool, quiet: bool,
 ) -> None:  # fmt: skip
-    r"""Plan a mission, drive it and report: the main job.
+    r"""Plan a mission, drive it in simulation and report.
 
     Writes plan.json, path.csv, plan.png, planned-mission.yaml, run.json, run.csv, run.png and
-    timing.json; of a fleet fleet.json, fleet.png, courses.npz, planned-fleet.yaml, run.json,
-    run.png and timing.json, and for each robot a folder with its plan.json and path.csv.
+    timing.json. For a fleet it writes fleet.json, fleet.png, courses.npz, planned-fleet.yaml,
+    run.json, run.png and timing.json, and a folder for each robot with its plan.json and path.csv.
 
     \b
     Example:

@@ -24,12 +24,12 @@ from viaspline.commands.common_options import MISSION, OUT, QUIET
 @OUT
 @QUIET
 def tension(mission: Path, out: Path | None, quiet: bool) -> None:
-    r"""Advise a tension: plan with many of them, and say what each does and which to take.
+    r"""Advise a tension: plan with many, and say what each does.
 
-    Compared are whole plans, in time first, then in peak curvature. What is suggested is no worse
-    than -0.5, 0 or 0.5 for all spans, nor than what stands in the mission; where tension makes no
-    difference, that is what it says. Writes tension.png. In a mission, spline: {tension: auto}
-    takes what is suggested.
+    Whole plans are compared, first by time, then by peak curvature. What it suggests is no worse
+    than -0.5, 0 or 0.5 for all spans, nor than what the mission says; where tension makes no
+    difference, it says so. Writes tension.png. A mission with spline: {tension: auto} takes what
+    would be suggested.
 
     \b
     Example:

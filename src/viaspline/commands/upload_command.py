@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import click
 
 from viaspline.commands.command_steps import load_asked, progress_bar, watched_plan
+from viaspline.commands.common_options import MISSION, QUIET
 from viaspline.commands.link_options import (
     ADDRESSES,
     ORIGIN,
-    QUIET,
     SYSTEM,
     WAIT,
     talking_to,
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("mission", type=click.Path(path_type=Path))
+@MISSION
 @click.option("--to", "address", required=True, metavar="ADDRESS", help=ADDRESSES)
-@click.option("--vias", is_flag=True, help="Send the mission's own points, as they stand.")
-@click.option("--no-fence", is_flag=True, help="Leave the fence on board as it is.")
+@click.option("--vias", is_flag=True, help="Send the mission's own via points as they are.")
+@click.option("--no-fence", is_flag=True, help="Leave the fence that is on board.")
 @ORIGIN
 @SYSTEM
 @WAIT
@@ -38,12 +38,12 @@ def upload(
     mission: Path, address: str, vias: bool, no_fence: bool, origin: str | None,
     system: int | None, wait: float, quiet: bool,
 ) -> None:  # fmt: skip
-    r"""Send a mission, its fences and rally points to a vehicle, read them back and compare.
+    r"""Send a mission to a vehicle, with its fences and rally points.
 
-    What is sent is the planned path, as straight lines that are proven again, with the acceptance
-    radius within which the vehicle may cut their corners; with --vias the mission's own points,
-    between which nothing is proven. What is on board before is replaced; rally points only if the
-    file has some.
+    Then it is read back and compared. What is sent is the planned path as straight lines, which are
+    proven again, with the acceptance radius within which the vehicle may cut corners. With --vias
+    it is the mission's own via points, between which nothing is proven. What was on board is
+    replaced; rally points only if the file has some.
 
     \b
     Examples:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import click
 
 from viaspline.commands.command_steps import load_asked
+from viaspline.commands.common_options import QUIET
 from viaspline.errors import OutputError
 from viaspline.report.terminal_lines import say
 
@@ -27,12 +28,12 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("mission", type=click.Path(path_type=Path), required=False)
 @click.option("--all", "everything", is_flag=True, help="Everything, whatever the mission.")
-@click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
+@QUIET
 def warm(mission: Path | None, everything: bool, quiet: bool) -> None:
-    r"""Compile what a mission needs, so that no run and no step of a robot waits for it.
+    r"""Compile what a mission needs now, so that no run waits for it.
 
-    Small missions of the same kind are driven for that: with the same sensor, drive and body. What
-    is compiled stays in the user's cache; a wheel with compiled kernels has it already.
+    Small missions of the same kind are driven for that, with the same sensor, drive and body. What
+    is compiled stays in the user's cache; a wheel with compiled kernels brings it along.
 
     \b
     Examples:
