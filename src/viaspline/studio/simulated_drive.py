@@ -88,18 +88,12 @@ def driven(run: Run) -> dict[str, Any]:
             }
             for event in run.events
         ],
-        "visits": [
-            {"name": visit.name, "status": visit.status, "time": visit.time, "reason": visit.reason}
-            for visit in run.visits
-        ],
         "replans": [
             {
                 "time": replan.time,
                 "at": replan.at[:2],
-                "mode": replan.mode,
                 "obstacles": replan.obstacles,
                 "spans": flat(replan.path.spans),
-                "jumps": [replan.position_jump, replan.heading_jump, replan.curvature_jump],
             }
             for replan in run.replans
         ],

@@ -244,7 +244,8 @@ def test_a_flight_is_told_with_its_heights_and_what_the_sensor_saw(
     assert surprised["sight"]["reach"] == 15
     assert 0 < surprised["sight"]["seen"][0] < surprised["duration"]
     (replan,) = surprised["replans"]
-    assert len(replan["spans3"]) * 2 == len(replan["spans"]) * 3
+    assert replan["spans"]
+    assert len(replan["spans"]) % 8 == 0
     assert surprised["clearance"] >= 1 - 1e-6
 
 

@@ -103,7 +103,7 @@ def _cube_data(voxels: Voxels) -> dict[str, Any]:
     cubes = VoxelCubes.of(voxels)
     indices = np.ascontiguousarray(cubes.indices, dtype="<i2")
     return {
-        "kind": "voxels", "origin": voxels.origin, "cell": cubes.cell, "own_cell": voxels.cell,
+        "kind": "voxels", "origin": voxels.origin, "cell": cubes.cell,
         "extent": voxels.extent, "cubes": base64.b64encode(indices.tobytes()).decode(),
         "roofs": base64.b64encode(_roofs_png(voxels)).decode(),
     }  # fmt: skip

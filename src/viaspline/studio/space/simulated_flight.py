@@ -43,16 +43,12 @@ def flown(run: SpatialRun) -> dict[str, Any]:
             "climb": rounded(run.climbs[some], 4),
         },
         "events": sorted(_events(run), key=lambda event: float(event["time"])),
-        "visits": [],
         "replans": [
             {
                 "time": one.time,
                 "at": _place(run, one.time)[:2],
-                "mode": "stopped" if one.stopped else "flying",
                 "obstacles": one.obstacles,
                 "spans": flat(one.path.spans),
-                "spans3": np.ascontiguousarray(one.path.spans).reshape(-1).tolist(),
-                "jumps": [0.0, 0.0, 0.0],
             }
             for one in run.replans
             if one.path is not None

@@ -100,7 +100,6 @@ def _in_space(plan: SpatialPlan) -> dict[str, Any]:
         "spans": np.ascontiguousarray(path.spans).reshape(-1).tolist(),
         "heights": rounded([via.at[2] for via in path.vias], 4),
         "stops": _stops(plan),
-        "airborne": plan.airborne,
         "yaw": {
             "distances": rounded(plan.yaw.distances[bends], 4),
             "headings": rounded(plan.yaw.headings[bends], 5),

@@ -31,7 +31,7 @@ export function diff(before, after, path = [], found = []) {
 }
 
 const isList = (/** @type {unknown} */ value) => Array.isArray(value);
-export const isMapping = (/** @type {unknown} */ value) =>
+const isMapping = (/** @type {unknown} */ value) =>
   typeof value === "object" && value !== null && !Array.isArray(value);
 
 /**

@@ -78,11 +78,6 @@ export class Store {
     return this.file !== this.savedFile;
   }
 
-  /** Whether the mission stands in a file of its own, and can't be edited here. */
-  get isElsewhere() {
-    return this.robot !== null && !!membersOf(this.file)[this.robot]?.mission;
-  }
-
   /**
    * Change the mission that is edited.
    * @param {any} doc

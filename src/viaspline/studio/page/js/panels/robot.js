@@ -89,13 +89,13 @@ function drive(robot, drives, set) {
 }
 
 /** Corners as text. @param {unknown} corners */
-export function cornersText(corners) {
+function cornersText(corners) {
   if (!Array.isArray(corners)) return "";
   return corners.map((p) => (Array.isArray(p) ? p.join(" ") : String(p))).join(", ");
 }
 
 /** Corners from text, whatever stands between the numbers; null unless there are three pairs at least. @param {string} text */
-export function cornersFrom(text) {
+function cornersFrom(text) {
   const numbers = text.split(/[\s,;()[\]]+/).filter(Boolean).map(Number);
   if (numbers.length < 6 || numbers.length % 2 || !numbers.every(Number.isFinite)) return null;
   return Array.from({ length: numbers.length / 2 }, (_, i) => [numbers[2 * i], numbers[2 * i + 1]]);

@@ -57,7 +57,7 @@ export function losersOf(ledger, origin, colours, radius) {
 }
 
 /** Places along Bézier spans, x, y, z in turn. @param {number[]} spans @returns {number[][]} */
-export function linesAlong(spans) {
+function linesAlong(spans) {
   const line = [];
   for (let k = 0; k < spans.length; k += 12) {
     for (let j = k ? 1 : 0; j <= 10; j += 1) {
