@@ -32,23 +32,16 @@ def clearance_faults(partial: PartialMission, misshapen: Collection[Path]) -> li
         misshapen: Paths of obstacles and fences that have no usable shape.
     """
     points = [(path, point) for path, point in partial.points if point is not None]
-    # A robot that makes no sense itself: ask only whether points are inside of something.
-    robot = partial.robot if partial.robot is not None else RobotSpec(radius_m=0, clearance_m=0)
-    known = [
-        (path, obstacle)
-        for path, obstacle in partial.known
-        if path not in misshapen and obstacle.motion is None
-    ]
-    fences = [(path, ring) for path, ring in partial.fences if path not in misshapen]
-    bounds = partial.bounds
-    if bounds is not None and (bounds[0] >= bounds[2] or bounds[1] >= bounds[3]):
-        bounds = None
-    rings: list[tuple[Path, tuple[Corners, ...]]] = [(path, (ring,)) for path, ring in fences]
+    robot, about = partial.robot_or_point, partial.standing(misshapen)
+    rings: list[tuple[Path, tuple[Corners, ...]]] = [(path, (ring,)) for path, ring in about.fences]
     rings += corridor_of(partial)
-    if not points or not (known or rings or bounds):
+    known = about.known
+    if not points or not (known or rings or about.bounds):
         return []
     margin = robot.inner_radius + robot.clearance_m
-    space = FreeSpace(bounds, [area for _, area in rings], [item for _, item in known], margin)
+    space = FreeSpace(
+        about.bounds, [area for _, area in rings], [item for _, item in known], margin
+    )
     return [
         UnplacedFault(
             (*points[i][0], "at"), _problem(points[i], near, margin), remedy, changes=changes

@@ -8,8 +8,8 @@ Tested through ``mission/test_model``.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -71,6 +71,24 @@ class PartialMission:
     def is_line(self) -> bool:
         """Whether a closed corridor says alone where the route goes round."""
         return bool(self.closed and self.corridor is not None and self.corridor.line is not None)
+
+    @property
+    def robot_or_point(self) -> RobotSpec:
+        """The robot; a point for one that makes no sense, which may be inside of something, too."""
+        return self.robot or RobotSpec(radius_m=0, clearance_m=0)
+
+    def standing(self, misshapen: Collection[Path]) -> PartialMission:
+        """It with what places can be held against: what stands, and has a usable shape.
+
+        Args:
+            misshapen: Paths of obstacles and fences that have none.
+        """
+        known = [one for one in self.known if one[0] not in misshapen and one[1].motion is None]
+        fences = [one for one in self.fences if one[0] not in misshapen]
+        bounds = self.bounds
+        if bounds is not None and (bounds[0] >= bounds[2] or bounds[1] >= bounds[3]):
+            bounds = None
+        return replace(self, known=known, fences=fences, bounds=bounds)
 
     @classmethod
     def of(cls, mission: MissionParts, resolved: ResolvedFiles) -> PartialMission:

@@ -13,6 +13,7 @@ import numpy as np
 
 from viaspline.mission.clearances import ROUND_OFF_M
 from viaspline.mission.fleet.partial_fleet import PartialMember
+from viaspline.mission.fleet.standing_places import apart_remedy
 from viaspline.mission.shapes.solids import Place
 from viaspline.mission.space.flight_places import ground_height, place_of, standing_height
 from viaspline.mission.space.flying_body import FlyingBody
@@ -122,12 +123,5 @@ def _fault(first: _Hover, second: _Hover, separation: float) -> UnplacedFault:
         f"{second.label} {verb} with {between} between it and where {first.label} does: "
         f"separation_m asks for {number(separation)}"
     )
-    remedies = ["move one of them"]
-    spare = math.floor((gap + ROUND_OFF_M) * 1e3) / 1e3  # rounded down, so that it is enough
-    if spare >= 0.0:
-        remedies.append(f"set separation_m to at most {number(spare)}")
-    if not both_start:
-        at_goal = [one.label for one in (first, second) if not one.is_start]
-        who = at_goal[0] if len(at_goal) == 1 else "one of them"
-        remedies.append(f"set rest: leave for {who}")
-    return UnplacedFault(second.path, problem, ", or ".join(remedies))
+    at_goal = [one.label for one in (first, second) if not one.is_start]
+    return UnplacedFault(second.path, problem, apart_remedy(gap, at_goal))

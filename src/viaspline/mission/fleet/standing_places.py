@@ -101,13 +101,26 @@ def _fault(first: _Stand, second: _Stand, separation: float) -> UnplacedFault:
         f"{second.label} {verb} {number(apart)} m from where {first.label} does: with their "
         f"bodies and separation_m {number(separation)} they have to be {number(needed)} m apart"
     )
+    at_goal = [one.label for one in (first, second) if not one.is_start]
+    remedy = apart_remedy(apart - first.radius - second.radius, at_goal)
+    return UnplacedFault(second.path, problem, remedy)
+
+
+def apart_remedy(gap: float, at_goal: Sequence[str]) -> str:
+    """What would have two robots stand apart.
+
+    Args:
+        gap: Free space between them [m]; negative where their bodies overlap.
+        at_goal: Which of them stay where they end.
+
+    >>> apart_remedy(0.2504, ["'r1'"])
+    "move one of them, or set separation_m to at most 0.25, or set rest: leave for 'r1'"
+    """
     remedies = ["move one of them"]
-    # Rounded down, so that what is said is enough.
-    spare = math.floor((apart - first.radius - second.radius + ROUND_OFF_M) * 1e3) / 1e3
+    spare = math.floor((gap + ROUND_OFF_M) * 1e3) / 1e3  # rounded down, so that it is enough
     if spare >= 0.0:
         remedies.append(f"set separation_m to at most {number(spare)}")
-    if not both_start:
-        at_goal = [one.label for one in (first, second) if not one.is_start]
+    if at_goal:
         who = at_goal[0] if len(at_goal) == 1 else "one of them"
         remedies.append(f"set rest: leave for {who}")
-    return UnplacedFault(second.path, problem, ", or ".join(remedies))
+    return ", or ".join(remedies)

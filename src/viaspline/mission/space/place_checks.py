@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from viaspline.errors import Change
 from viaspline.mission.partial_mission import PartialMission, obstacle_label
-from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.route_spec import ViaPoint
 from viaspline.mission.space.flight_places import ground_height
 from viaspline.mission.space.flown_place import FlownPlace
@@ -44,30 +43,20 @@ class PlaceChecks:
             misshapen: Paths of obstacles and fences that have no usable shape.
             home: How high the ground is under the start [m]; NaN if nobody knows.
         """
-        # A robot that makes no sense itself: ask only whether places are inside of something.
-        robot = partial.robot or RobotSpec(radius_m=0, clearance_m=0)
-        known = [
-            (path, obstacle)
-            for path, obstacle in partial.known
-            if path not in misshapen and obstacle.motion is None
-        ]
-        fences = [(path, ring) for path, ring in partial.fences if path not in misshapen]
-        bounds = partial.bounds
-        if bounds is not None and (bounds[0] >= bounds[2] or bounds[1] >= bounds[3]):
-            bounds = None
+        about = partial.standing(misshapen)
         altitude = parts.altitude
         if altitude is not None and altitude.is_upside_down:
             altitude = None
         space = SolidSpace.of(
-            SpatialSize.of(robot),
-            [obstacle for _, obstacle in known],
-            (bounds, [(ring,) for _, ring in fences]),
+            SpatialSize.of(partial.robot_or_point),
+            [obstacle for _, obstacle in about.known],
+            (about.bounds, [(ring,) for _, ring in about.fences]),
             parts.ground,
             altitude,
             home,
         )
-        labels = [obstacle_label(path, obstacle) for path, obstacle in known]
-        return cls(space, labels, [path for path, _ in fences])
+        labels = [obstacle_label(path, obstacle) for path, obstacle in about.known]
+        return cls(space, labels, [path for path, _ in about.fences])
 
     def faults(self, visit: FlownPlace) -> Iterator[UnplacedFault]:
         """What is wrong with a place."""
