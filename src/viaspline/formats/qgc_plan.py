@@ -5,7 +5,6 @@ Format: https://docs.qgroundcontrol.com/master/en/qgc-dev-guide/file_formats/pla
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -24,11 +23,7 @@ from viaspline.formats.mission_format import Whereabouts, Written
 from viaspline.formats.named_files import world_data
 from viaspline.formats.outgoing import itinerary_of, lost_of
 from viaspline.formats.plan_items import plan_items
-from viaspline.formats.plan_parts import (
-    circle_json,
-    item_json,
-    polygon_json,
-)
+from viaspline.formats.plan_parts import plan_document
 from viaspline.formats.waypoint_format import WaypointFormat
 from viaspline.mission.model import Mission
 from viaspline.mission.unplaced_faults import describe
@@ -134,31 +129,16 @@ def plan_text(itinerary: Itinerary, own: Mapping[str, Any], *, rotors: bool) -> 
         own: What stands under viaspline's own key.
         rotors: Whether it is for a multirotor; else for a rover.
     """
-    home, fences = itinerary.home, itinerary.fences
+    home = itinerary.home
     assert home is not None
-    plan = {
-        "fileType": "Plan",
-        "version": 1,
-        "groundStation": "viaspline",
-        "mission": {
-            "version": 2,
-            "firmwareType": ARDUPILOT,
-            "vehicleType": QUADROTOR if rotors else GROUND_ROVER,
-            "globalPlanAltitudeMode": 1,
-            "cruiseSpeed": itinerary.speed,
-            "hoverSpeed": itinerary.speed,
-            "plannedHomePosition": [home.latitude, home.longitude, home.altitude],
-            "items": [item_json(item) for item in itinerary.items],
-        },
-        "geoFence": {
-            "version": 2,
-            "polygons": [polygon_json(area) for area in fences if area.center is None],
-            "circles": [circle_json(area) for area in fences if area.center is not None],
-        },
-        "rallyPoints": {"version": 2, "points": []},
-        "viaspline": own,
+    vehicle = {
+        "firmwareType": ARDUPILOT,
+        "vehicleType": QUADROTOR if rotors else GROUND_ROVER,
+        "cruiseSpeed": itinerary.speed,
+        "hoverSpeed": itinerary.speed,
+        "plannedHomePosition": [home.latitude, home.longitude, home.altitude],
     }
-    return json.dumps(plan, indent=4, sort_keys=True, allow_nan=False) + "\n"
+    return plan_document(itinerary, vehicle, (), {"viaspline": own})
 
 
 def _check_versions(root: Tree, mission: Tree) -> None:

@@ -5,11 +5,10 @@ Tested through ``commands/test_upload_command``.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 
 from viaspline.formats.items import Itinerary
-from viaspline.formats.plan_parts import circle_json, item_json, polygon_json
+from viaspline.formats.plan_parts import plan_document
 from viaspline.links.mavlink.common_messages import MissionItemInt
 from viaspline.links.mavlink.mav_words import RALLY
 from viaspline.links.mavlink.mission_items import Lists, itinerary_on_board
@@ -24,28 +23,13 @@ def board_plan(lists: Lists, vehicle: Vehicle) -> str:
         vehicle: Whose board it is.
     """
     itinerary = itinerary_on_board(lists, vehicle, f"{vehicle}")
-    fences = itinerary.fences
-    plan = {
-        "fileType": "Plan",
-        "version": 1,
-        "groundStation": "viaspline",
-        "mission": {
-            "version": 2,
-            "firmwareType": vehicle.autopilot,
-            "vehicleType": vehicle.kind,
-            "globalPlanAltitudeMode": 1,
-            "plannedHomePosition": _home(itinerary),
-            "items": [item_json(item) for item in itinerary.items],
-            **_speeds(itinerary.speed),
-        },
-        "geoFence": {
-            "version": 2,
-            "polygons": [polygon_json(area) for area in fences if area.center is None],
-            "circles": [circle_json(area) for area in fences if area.center is not None],
-        },
-        "rallyPoints": {"version": 2, "points": _rally(lists.get(RALLY, ()))},
+    flown_by = {
+        "firmwareType": vehicle.autopilot,
+        "vehicleType": vehicle.kind,
+        "plannedHomePosition": _home(itinerary),
+        **_speeds(itinerary.speed),
     }
-    return json.dumps(plan, indent=4, sort_keys=True, allow_nan=False) + "\n"
+    return plan_document(itinerary, flown_by, _rally(lists.get(RALLY, ())), {})
 
 
 def _home(itinerary: Itinerary) -> list[float]:
