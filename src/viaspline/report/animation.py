@@ -24,11 +24,8 @@ from viaspline.report.sheet import Sheet, new_sheet
 from viaspline.report.side_column import SideColumn
 from viaspline.report.via_marks import draw_vias
 from viaspline.report.video_file import VideoFile
-from viaspline.report.video_writer import Frame, write_film
+from viaspline.report.video_writer import FILM_DPI, MAX_FRAMES, Frame, write_film
 from viaspline.robot.run import Run
-
-MAX_FRAMES = 180
-FILM_DPI = 80
 
 
 @any_name()

@@ -43,10 +43,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
             **timing_choices(plan),
             "trajectory": {
                 "duration_s": plan.trajectory.duration,
-                "stations": [
-                    {"name": s.name, "distance_m": s.distance, "dwell_s": s.dwell}
-                    for s in plan.trajectory.stations
-                ],
+                "stations": stations_data(plan.trajectory),
                 **waits_data(plan),
                 "law": law_data(plan.trajectory),
             },
@@ -102,6 +99,13 @@ def path_data(path: Path) -> dict[str, Any]:
         "length_m": path.length,
         "max_curvature_1pm": path.max_curvature()[0],
     }
+
+
+def stations_data(law: Trajectory) -> list[dict[str, Any]]:
+    """Where it stops, and for how long."""
+    return [
+        {"name": one.name, "distance_m": one.distance, "dwell_s": one.dwell} for one in law.stations
+    ]
 
 
 def law_data(law: Trajectory) -> dict[str, Any]:

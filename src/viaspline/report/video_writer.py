@@ -20,6 +20,8 @@ from viaspline.report.video_file import VideoFile
 Frame = NDArray[np.uint8]  # (height, width, 3)
 FRAMES_PER_S = 15  # frames a second
 LAST_FRAME_S = 2.0  # the last frame stays [s]
+MAX_FRAMES = 180  # of a run or a flight
+FILM_DPI = 80
 
 
 def write_film(

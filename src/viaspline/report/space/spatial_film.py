@@ -16,11 +16,9 @@ from viaspline.report.canvas import any_name
 from viaspline.report.space.moving_in_space import solids_met
 from viaspline.report.space.spatial_picture import drawn_page
 from viaspline.report.video_file import VideoFile
-from viaspline.report.video_writer import Frame, write_film
+from viaspline.report.video_writer import FILM_DPI, MAX_FRAMES, Frame, write_film
 from viaspline.space.spatial_run import SpatialRun
 
-MAX_FRAMES = 180
-FILM_DPI = 80
 ARROW_PX = 26.0
 """How long the arrow of the heading is."""
 

@@ -20,6 +20,7 @@ from viaspline.report.plan_json import (
     ledger_entry_data,
     mission_summary,
     path_data,
+    stations_data,
 )
 from viaspline.report.proven_reference import PROVEN_KEY
 from viaspline.report.space.heights_json import heights_data
@@ -50,10 +51,7 @@ def spatial_plan_json(plan: SpatialPlan, name: str) -> str:
             "ledger": [ledger_entry_data(entry) for entry in plan.ledger],
             "trajectory": {
                 "duration_s": plan.trajectory.duration,
-                "stations": [
-                    {"name": s.name, "distance_m": s.distance, "dwell_s": s.dwell}
-                    for s in plan.trajectory.stations
-                ],
+                "stations": stations_data(plan.trajectory),
                 **({} if plan.moving is None else {"waits": waits_list(plan.waits)}),
                 "law": law_data(plan.trajectory),
             },
