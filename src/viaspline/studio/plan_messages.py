@@ -5,10 +5,13 @@ Tested through ``studio/test_server``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from viaspline.curve.certificate import Certificate
+from viaspline.curve.path import Path
 from viaspline.maps.grid import Grid
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate
@@ -49,27 +52,44 @@ def problem_data(problem: PlanFault) -> dict[str, Any]:
 def path_data(plan: Plan) -> dict[str, Any]:
     """A path, what is proven of it and how it drives."""
     path, proof = plan.path, plan.certificate
+    return {
+        **from_above(path, [via.kind for via in path.vias]),
+        "curvature": 1.0 / plan.drivability.sharpest_radius,
+        "certificate": proof_data(proof, proof.obstacle),
+        "drivability": plain(drivability_data(plan.drivability)),
+        "corridor": [[rounded(point, 3) for point in ring] for ring in plan.world.corridor],
+    }
+
+
+def from_above(path: Path, kinds: Sequence[str]) -> dict[str, Any]:
+    """A path as it lies on the map.
+
+    Args:
+        path: In the plane or in space.
+        kinds: What each of its via points is to the page.
+    """
     joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
     return {
         "spans": flat(path.spans),
         "joints": rounded(joints),
         "vias": [
-            [via.name, *via.at[:2], via.kind, via.u, round(float(distance), 6), via.dwell]
-            for via, distance in zip(path.vias, path.via_distances, strict=True)
+            [via.name, *via.at[:2], kind, via.u, round(float(distance), 6), via.dwell]
+            for via, kind, distance in zip(path.vias, kinds, path.via_distances, strict=True)
         ],
         "length": path.length,
-        "curvature": 1.0 / plan.drivability.sharpest_radius,
-        "certificate": {
-            "clearance": finite(proof.clearance),
-            "required": proof.required,
-            "holds": proof.holds,
-            "at": proof.tightest_at[:2],
-            "distance": finite(proof.tightest_distance),
-            "nearest": proof.obstacle,
-        },
-        "drivability": plain(drivability_data(plan.drivability)),
-        "order": _order(plan),
-        "corridor": [[rounded(point, 3) for point in ring] for ring in plan.world.corridor],
+        "order": [via.name for via in path.vias if via.kind == "user"],
+    }
+
+
+def proof_data(proof: Certificate, nearest: str | None) -> dict[str, Any]:
+    """What is proven of a path, and what the page calls the nearest obstacle."""
+    return {
+        "clearance": finite(proof.clearance),
+        "required": proof.required,
+        "holds": proof.holds,
+        "at": proof.tightest_at[:2],
+        "distance": finite(proof.tightest_distance),
+        "nearest": nearest,
     }
 
 
@@ -83,11 +103,6 @@ def law_data(trajectory: Trajectory) -> dict[str, Any]:
         },
         "duration": trajectory.duration,
     }
-
-
-def _order(plan: Plan) -> list[str]:
-    """Names of the route's points as they are served."""
-    return [via.name for via in plan.path.vias if via.kind == "user"]
 
 
 def ledger(planned: PlannedDocument, revision: int) -> dict[str, Any]:

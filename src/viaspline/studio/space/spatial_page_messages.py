@@ -18,7 +18,13 @@ from viaspline.report.space.heights_json import heights_rows
 from viaspline.space.route_law import LANDING, TAKE_OFF
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.studio.page_numbers import finite, flat, rounded
-from viaspline.studio.plan_messages import grids, law_data, problem_data
+from viaspline.studio.plan_messages import (
+    from_above,
+    grids,
+    law_data,
+    problem_data,
+    proof_data,
+)
 from viaspline.studio.space.planned_spatial import PlannedSpatial
 
 MAX_SIDES_TOLD: Final = 4
@@ -63,32 +69,15 @@ def as_listed(text: str) -> str:
 def _from_above(plan: SpatialPlan) -> dict[str, Any]:
     """What a plan in space has in common with one in the plane."""
     path, proof = plan.path, plan.certificate
-    joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
+    kinds = ["upright" if v.kind == "user" and v.index is None else v.kind for v in path.vias]
+    nearest = None if proof.obstacle is None else as_listed(proof.obstacle)
     return {
-        "spans": flat(path.spans),
-        "joints": rounded(joints),
-        "vias": [
-            [
-                via.name, *via.at[:2],
-                "upright" if via.kind == "user" and via.index is None else via.kind,
-                via.u, round(float(distance), 6), via.dwell,
-            ]
-            for via, distance in zip(path.vias, path.via_distances, strict=True)
-        ],
-        "length": path.length,
+        **from_above(path, kinds),
         "curvature": 1.0 / plan.sharpest_radius,
-        "certificate": {
-            "clearance": finite(proof.clearance),
-            "required": proof.required,
-            "holds": proof.holds,
-            "at": proof.tightest_at[:2],
-            "distance": finite(proof.tightest_distance),
-            "nearest": None if proof.obstacle is None else as_listed(proof.obstacle),
-        },
+        "certificate": proof_data(proof, nearest),
         "drivability": plain(drivability_data(plan.drivability)),
-        "order": [via.name for via in path.vias if via.kind == "user"],
         "corridor": [],
-    }  # fmt: skip
+    }
 
 
 def _in_space(plan: SpatialPlan) -> dict[str, Any]:
