@@ -40,7 +40,7 @@ class Area:
     name: str | None = None
 
 
-def areas_of(polygons: Iterable[Polygon], name: str | None = None) -> Iterator[Area]:
+def areas_of(polygons: Iterable[Polygon], name: str | None) -> Iterator[Area]:
     """Polygons of shapely as areas; all have the same name."""
     for polygon in polygons:
         holes = tuple(_corners(ring) for ring in polygon.interiors)

@@ -87,7 +87,7 @@ def planned_fleet_contents(fleet: Fleet, folder: Path) -> Contents:
     return {PLANNED_FLEET_NAME: fleet_text(fleet, folder)}
 
 
-def fleet_run_contents(plan: FleetPlan, run: FleetRun, name: str, *, seed: int = 0) -> Contents:
+def fleet_run_contents(plan: FleetPlan, run: FleetRun, name: str, *, seed: int) -> Contents:
     """The files of a drive of a fleet, without those of its plan: the same bytes every time."""
     return {
         "run.json": fleet_run_json(run, name, seed=seed),

@@ -119,9 +119,7 @@ class Labels:
         """
         self._labels.append(_Label(text, at, rank, colour, size, inside, gap, area))
 
-    def add_within(
-        self, text: str, area: shapely.Geometry, *, rank: int = 5, size: float = SMALL_PT
-    ) -> None:
+    def add_within(self, text: str, area: shapely.Geometry, *, rank: int, size: float) -> None:
         """Ask for a label that is left out where it doesn't fit within what it names.
 
         Args:

@@ -15,9 +15,7 @@ from viaspline.report.space_time import SpaceTime
 DEEPEST_M = 1e6  # inside of something, as far as a picture cares
 
 
-def draw_space_time(
-    axes: Axes, shown: SpaceTime, driven: Floats, free: Floats | None = None
-) -> None:
+def draw_space_time(axes: Axes, shown: SpaceTime, driven: Floats, free: Floats | None) -> None:
     """Draw what is blocked, what is driven through it, and what would be if nothing moved.
 
     Args:

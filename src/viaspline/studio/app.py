@@ -24,9 +24,9 @@ def application(
     folder: Folder,
     engine: Engine,
     *,
-    name: str | None = None,
+    name: str | None,
     hosts: frozenset[str] | None,
-    token: str | None = None,
+    token: str | None,
 ) -> ASGIApp:
     """The application.
 

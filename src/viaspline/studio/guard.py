@@ -43,7 +43,7 @@ class Guard:
 
     app: ASGIApp
     hosts: frozenset[str] | None
-    token: str | None = None
+    token: str | None
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer, or pass on."""

@@ -32,8 +32,8 @@ class LoadedDocument:
     """
 
     document: Document
-    warnings: tuple[str, ...] = ()
-    origin: LatLon | None = None
+    warnings: tuple[str, ...]
+    origin: LatLon | None
 
 
 _LAST: dict[tuple[str, int, int], LoadedDocument] = {}

@@ -131,7 +131,7 @@ class SolidSpace:
             and not any(self.near_solids(body))
         )
 
-    def free_height(self, place: Place, zero: float = 0.0) -> float | None:
+    def free_height(self, place: Place, zero: float) -> float | None:
         """The nearest height at which the robot may be at a place [m]; None if none is found.
 
         Heights over and under what stands there, the ground's and the band's are tried.
