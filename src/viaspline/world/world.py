@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
-from viaspline.handed_in import all_of, numbers_from
+from viaspline.handed_in import all_of
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.world import distance as kernels
 from viaspline.kernels.world.clusters import group_labels
@@ -20,11 +18,11 @@ from viaspline.mission.shapes.obstacle import Obstacle, Side
 from viaspline.mission.strip import corridor_rings
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.shown_value import ShownValue
+from viaspline.world.handed_places import Bounds, Ring, checked_bounds, checked_rings, flat_places
 from viaspline.world.outline import outline
 from viaspline.world.pack import Rings, discs_at_end, join, pack, pack_discs
 from viaspline.world.tree_growth import leaf_boxes
 
-Bounds = tuple[float, float, float, float]
 NOTHING = -1  # the index of what is nearest in an empty world
 BOUNDS = -2  # what stands for the bounds where an index names what is nearest; fences follow
 
@@ -61,8 +59,8 @@ class World(ShownValue, ComparedByValue):
             "obstacles", obstacles, Obstacle, "give Obstacle(circle={...}), or World.known(mission)"
         )
         self.bounds: Bounds | None = None
-        self.fences = _rings("fences", fences)
-        self.corridor = _rings("corridor", corridor)
+        self.fences = checked_rings("fences", fences)
+        self.corridor = checked_rings("corridor", corridor)
         if bounds is not None:
             self.bounds = checked_bounds(bounds)
         areas: list[Rings] = [(ring,) for ring in self.fences]
@@ -112,22 +110,23 @@ class World(ShownValue, ComparedByValue):
     def _with(
         self, new: tuple[Obstacle, ...], packed: PackedWorld, sided: tuple[int, ...]
     ) -> World:
-        world = object.__new__(World)
-        world.obstacles = self.obstacles + new
-        world.bounds = self.bounds
-        world.fences, world.corridor = self.fences, self.corridor
-        world._listed, world._sided = self._listed, sided
+        world = self._copied()
+        world.obstacles, world._sided = self.obstacles + new, sided
         world.packed, world._settled = join(self.packed, packed, self._settled)
         return world
 
     def with_side(self, index: int, side: Side) -> World:
         """A world with one obstacle that may be passed on this side only."""
         asked = self.obstacles[index].model_copy(update={"pass_on": side, "never_pass_on": None})
-        world = object.__new__(World)
+        world = self._copied()
         world.obstacles = (*self.obstacles[:index], asked, *self.obstacles[index + 1 :])
-        world.bounds, world.fences, world.packed = self.bounds, self.fences, self.packed
-        world.corridor, world._settled = self.corridor, self._settled
-        world._listed, world._sided = self._listed, tuple(sorted({*self._sided, index}))
+        world._sided = tuple(sorted({*self._sided, index}))
+        return world
+
+    def _copied(self) -> World:
+        """One to be changed before anybody else sees it."""
+        world = object.__new__(World)
+        vars(world).update(vars(self))
         return world
 
     def listed_at(self, index: int) -> int:
@@ -182,7 +181,7 @@ class World(ShownValue, ComparedByValue):
         return np.ascontiguousarray(self.packed.heads[:, :2]), np.flatnonzero(~self.are_maps)
 
     @property
-    def enclosures(self) -> tuple[tuple[tuple[float, float], ...], ...]:
+    def enclosures(self) -> tuple[Ring, ...]:
         """The outer rings of the fences and of the corridor [m]."""
         return (*self.fences, *self.corridor[:1])
 
@@ -240,7 +239,7 @@ class World(ShownValue, ComparedByValue):
             (distance, index): the obstacle's index; -2 for the bounds, -3 - f for fence f, the
             corridor being the last (see ``name``); -1 in an empty world.
         """
-        flat, shape = _as_points(points)
+        flat, shape = flat_places(points)
         distance, index = kernels.distances(self.packed, flat)
         return distance.reshape(shape), index.reshape(shape)
 
@@ -252,7 +251,7 @@ class World(ShownValue, ComparedByValue):
         """
         if not 0 <= index < len(self):
             raise GeometryError(f"there is no obstacle {index}; there are {len(self)}, from 0")
-        flat, shape = _as_points(points)
+        flat, shape = flat_places(points)
         distance: NDArray[np.float64] = kernels.obstacle_distances(self.packed, index, flat)
         return distance.reshape(shape)
 
@@ -291,7 +290,7 @@ class World(ShownValue, ComparedByValue):
         """Distance of a body from the world [m], and what is nearest to it, as in ``nearest``."""
         from viaspline.kernels.clearance.footprint_pose import body_distances
 
-        flat, shape = _as_points(positions)
+        flat, shape = flat_places(positions)
         angles = np.asarray(headings, np.float64)
         if angles.shape not in ((), shape) or not np.isfinite(angles).all():
             raise GeometryError(
@@ -318,50 +317,6 @@ class World(ShownValue, ComparedByValue):
         return tuple(tuple(group) for group in members.values())
 
 
-def checked_bounds(bounds: Sequence[float]) -> Bounds:
-    """Bounds as they were handed in.
-
-    Raises:
-        GeometryError: They are none.
-    """
-    numbers = numbers_from("bounds", bounds)
-    if numbers.shape != (4,):
-        raise GeometryError(
-            f"bounds have the shape {numbers.shape}; give x_min, y_min, x_max, y_max"
-        )
-    x0, y0, x1, y1 = numbers.tolist()
-    if not (-math.inf < x0 < x1 < math.inf and -math.inf < y0 < y1 < math.inf):
-        raise GeometryError(f"bounds {tuple(bounds)} are empty; give x_min, y_min, x_max, y_max")
-    return x0, y0, x1, y1
-
-
 def _sided(obstacles: Iterable[Obstacle]) -> tuple[int, ...]:
     """Indices of those that ask for a side."""
     return tuple(i for i, one in enumerate(obstacles) if one.forced_side is not None)
-
-
-def _rings(name: str, rings: Iterable[Any]) -> tuple[tuple[tuple[float, float], ...], ...]:
-    """Closed rings of corners [m], as they were handed in.
-
-    Raises:
-        GeometryError: They aren't.
-    """
-    found = []
-    for i, ring in enumerate(all_of(name, rings, object, "give rings [[x, y], ...]")):
-        corners = numbers_from(f"{name}[{i}]", ring)
-        if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
-            raise GeometryError(f"{name}[{i}] is no ring; give three corners [x, y] at least")
-        if not np.isfinite(corners).all():
-            raise GeometryError(f"{name}[{i}] has a corner that is nowhere; give finite numbers")
-        found.append(tuple((x, y) for x, y in corners.tolist()))
-    return tuple(found)
-
-
-def _as_points(points: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
-    array = numbers_from("points", points)
-    if array.ndim == 0 or array.shape[-1] not in (2, 3):
-        raise GeometryError(f"points have shape {array.shape}; give (n, 2) or (2,)")
-    if not np.isfinite(array).all():
-        raise GeometryError("points contain NaN or infinity; give finite numbers")
-    flat = np.ascontiguousarray(array[..., :2]).reshape(-1, 2)
-    return flat, array.shape[:-1]

@@ -22,10 +22,11 @@ from viaspline.maps.voxels import Voxels
 from viaspline.mission.shapes.solids import GridPrism, Prism, RoundedSegment, Solid
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.told_value import ToldValue
+from viaspline.world.handed_places import checked_bounds
 from viaspline.world.pack import Rings
 from viaspline.world.space.height_band import HeightBand
 from viaspline.world.space.pack_space import pack_space
-from viaspline.world.world import BOUNDS, NOTHING, checked_bounds
+from viaspline.world.world import BOUNDS, NOTHING
 
 SOLIDS = (Prism, GridPrism, RoundedSegment, Voxels)
 
