@@ -26,18 +26,11 @@ from viaspline.planning.corridor.corridor_refusals import (
     refuse_sharp,
 )
 from viaspline.planning.corridor.initial_line import seed
-from viaspline.planning.corridor.minimum_curvature import (
-    SAMPLES_PER_SPAN,
-    SPAN_WIDTHS,
-    Gate,
-    Line,
-    StripProblem,
-    fixed,
-    improved,
-    settled,
-)
+from viaspline.planning.corridor.line_in_strip import SAMPLES_PER_SPAN, SPAN_WIDTHS, Line
+from viaspline.planning.corridor.minimum_curvature import fixed, improved, settled
 from viaspline.planning.corridor.side_walls import with_side_walls
 from viaspline.planning.corridor.strip_line import StripLine, split
+from viaspline.planning.corridor.strip_problem import Gate, StripProblem
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence, via_sequence_of
 from viaspline.world.world import World

@@ -13,7 +13,8 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.strip import Strip, rings_of
 from viaspline.planning.checking.conflicts import CLEAR, too_close
-from viaspline.planning.corridor.minimum_curvature import SPAN_WIDTHS, Line, StripProblem
+from viaspline.planning.corridor.line_in_strip import SPAN_WIDTHS, Line
+from viaspline.planning.corridor.strip_problem import StripProblem
 from viaspline.planning.methods.clear_spline import ClearSpline
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import Leg, RouteVia, ViaSequence

@@ -18,172 +18,28 @@ Tested through ``planning/corridor/test_corridor_planner``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 from scipy.sparse import csr_array, diags_array, eye_array, vstack
 
-from viaspline.kernels.arrays import Floats, Ints
-from viaspline.mission.strip import Strip
-from viaspline.planning.corridor.bspline import Knots
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.corridor.line_in_strip import SAMPLES_PER_SPAN, Line, samples
 from viaspline.planning.corridor.quadratic_program import Programme, solve
-from viaspline.planning.corridor.strip_edges import StripEdge
+from viaspline.planning.corridor.strip_problem import StripProblem
 from viaspline.world.world import World
 
-SAMPLES_PER_SPAN = 3  # samples
 FINE_SAMPLES_PER_SPAN = 8  # samples a span where the line is laid through anew
-SPAN_WIDTHS = 0.4  # of the strip's width: the length of a span
-MAX_SPANS = 2000  # spans
 MAX_STRIDE_WIDTHS = 0.25  # of the width: farthest that a control point moves at once
 SETTLED_WIDTHS = 0.05  # of the width: below it the line isn't laid through equal distances again
 LAST_STEP_WIDTHS = 2e-3  # of the width: such a step is the last
 MAX_STEPS_OF_LINE = 40
 GATE_SNAP = 5e-3  # a gate so near to a joint is moved onto it, as a parameter
-NEWTON_STEPS = 8  # steps to the place that is nearest to a gate
 ROOM_PRICE = 1.5e5  # of room that is missing
 LENGTH_WEIGHT = 0.03  # what a metre is worth beside curvature, with the width as the unit
-PEAK_WEIGHT = (
-    1.0  # weight of the fourth power of the curvature beside its square, in the same units
-)
+PEAK_WEIGHT = 1.0  # of the curvature's fourth power beside its square, in the same units
 GRADIENT_STEP_M = 1e-5  # step of differences [m]
-
-
-@dataclass(frozen=True, eq=False)
-class Gate:
-    """A place that the line runs through, exactly.
-
-    Attributes:
-        place: [m], (2,).
-        row: Row of the strip that is nearest.
-        direction: Unit vector in which it runs there, (2,), or None.
-    """
-
-    place: Floats
-    row: int
-    direction: Floats | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class StripProblem:
-    """What a line has to keep.
-
-    Attributes:
-        strip: Where it lies.
-        margin: What it keeps from the edges, and from what stands in the strip [m].
-        obstacles: What stands in the strip; None: nothing.
-        gates: In the order of driving; an open line runs from the first to the last.
-        max_curvature: [1/m]; None: no limit.
-    """
-
-    strip: Strip
-    margin: float
-    obstacles: World | None = None
-    gates: tuple[Gate, ...] = ()
-    max_curvature: float | None = None
-
-    @cached_property
-    def width(self) -> float:
-        """The strip's usual width [m]."""
-        return float(np.median(self.strip.widths))
-
-    @cached_property
-    def window(self) -> int:
-        """How many rows before and after a place have edges that it may be near to."""
-        return self.strip.rows_within(1.5 * float(self.strip.widths.max()))
-
-    @cached_property
-    def edges(self) -> tuple[StripEdge, StripEdge]:
-        """On the right and on the left."""
-        strip = self.strip
-        return (
-            StripEdge(strip.right, 1.0, strip.closed, self.window),
-            StripEdge(strip.left, -1.0, strip.closed, self.window),
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class Line:
-    """A line on its way to the least curvature.
-
-    Attributes:
-        knots: Of its spline.
-        controls: Control points [m], (n, 2).
-        rows: Nearest row of the strip at each sample.
-        at: Parameters of the gates.
-        extra: Added to the margin at each sample [m].
-    """
-
-    knots: Knots
-    controls: Floats
-    rows: Ints
-    at: Floats
-    extra: Floats
-
-    @classmethod
-    def through(cls, points: Floats, rows: Ints, task: StripProblem) -> Line:
-        """The line through points at equal distances.
-
-        Args:
-            points: Close together along it [m], (k, 2).
-            rows: The strip's row that is nearest to each.
-            task: What it keeps.
-        """
-        closed = task.strip.closed
-        ring = np.vstack((points, points[:1])) if closed else points
-        along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(ring, axis=0), axis=1))]
-        long = max(SPAN_WIDTHS * task.width, along[-1] / MAX_SPANS)
-        knots = Knots(max(round(along[-1] / long), 8), closed)
-        curve = CubicSpline(along, ring, bc_type="periodic" if closed else "natural")
-        equal = np.linspace(0.0, along[-1], knots.count + 1)
-        controls = knots.through(curve(equal[:-1] if closed else equal))
-        at = samples(knots, SAMPLES_PER_SPAN)
-        count = len(task.strip.middle)
-        unwrapped = np.unwrap(rows, period=count) if closed else rows
-        if closed:
-            unwrapped = np.r_[unwrapped, unwrapped[0] + count]
-        guess = np.rint(np.interp(at * along[-1] / knots.count, along, unwrapped)).astype(np.int64)
-        places = knots.matrix(at) @ controls
-        found = task.strip.follow(places, guess, task.window)
-        line = cls(knots, controls, found, np.zeros(0), np.zeros(at.size))
-        return replace(line, at=line.passing(task, places, at))
-
-    def passing(self, task: StripProblem, places: Floats, at: Floats) -> Floats:
-        """Parameters at which the line is nearest to the gates."""
-        if not task.gates:
-            return np.zeros(0)
-        closed, count = self.knots.closed, float(self.knots.count)
-        aims = np.array([gate.place for gate in task.gates])
-        rows = np.array([gate.row for gate in task.gates])
-        apart = np.abs(self.rows - rows[:, None])
-        if closed:
-            size = len(task.strip.middle)
-            apart = np.minimum(apart % size, -apart % size)
-        gap = np.linalg.norm(places - aims[:, None], axis=2)
-        found = at[np.where(apart <= task.window, gap, np.inf).argmin(axis=1)]
-        for _ in range(NEWTON_STEPS):
-            here = found % count if closed else np.clip(found, 0.0, count)
-            place, slope, bend = (self.knots.matrix(here, k) @ self.controls for k in range(3))
-            away = place - aims
-            steep = (slope * slope).sum(axis=1)
-            steep = np.maximum(steep + (away * bend).sum(axis=1), 0.1 * steep)
-            found = here - np.clip((away * slope).sum(axis=1) / steep, -0.5, 0.5)
-        if closed:
-            return np.asarray(found % count, np.float64)
-        found[0], found[-1] = 0.0, count
-        return np.asarray(np.clip(found, 0.0, count), np.float64)
-
-    @property
-    def spans(self) -> Floats:
-        """Bézier control polygons [m], (m, 4, 2)."""
-        return self.knots.spans(self.controls)
-
-
-def samples(knots: Knots, each: int) -> Floats:
-    """Equally spaced parameters, the end of an open spline among them."""
-    return np.arange(each * knots.count + (not knots.closed)) / each
 
 
 def settled(line: Line, task: StripProblem) -> Line:
@@ -266,10 +122,10 @@ def _normals(line: Line) -> Floats:
     else:
         along = np.gradient(controls, axis=0)
     along /= np.linalg.norm(along, axis=1)[:, None]
-    return left_of(along)
+    return _left_of(along)
 
 
-def left_of(vectors: Floats) -> Floats:
+def _left_of(vectors: Floats) -> Floats:
     """Vectors turned to the left, (k, 2)."""
     return np.column_stack((-vectors[:, 1], vectors[:, 0]))
 
@@ -280,14 +136,14 @@ def _bending(
     """The objective, and what keeps the curvature below its limit."""
     slope, bend = moves[1].values, moves[2].values
     speed = np.linalg.norm(slope, axis=1)
-    turned = left_of(slope) / speed[:, None] ** 3
+    turned = _left_of(slope) / speed[:, None] ** 3
     curvature = (turned * bend).sum(axis=1)
-    by_slope = -left_of(bend) / speed[:, None] ** 3
+    by_slope = -_left_of(bend) / speed[:, None] ** 3
     by_slope -= 3.0 * (curvature / speed**2)[:, None] * slope
     change = moves[1].along(by_slope) + moves[2].along(turned)
     step = speed / SAMPLES_PER_SPAN
     unit = task.width
-    across = moves[1].along(left_of(slope) / speed[:, None])
+    across = moves[1].along(_left_of(slope) / speed[:, None])
     along = moves[1].along(slope / speed[:, None])
     worth = LENGTH_WEIGHT / unit**2
     sharp = PEAK_WEIGHT * (unit * curvature) ** 2
@@ -336,7 +192,7 @@ def _gate_rows(line: Line, normals: Floats, task: StripProblem) -> tuple[Any, Fl
         return csr_array((0, line.knots.controls)), np.zeros(0)
     place = _Moves(line.knots.matrix(line.at), line.controls, normals)
     slope = _Moves(line.knots.matrix(line.at, 1), line.controls, normals)
-    across = left_of(slope.values)
+    across = _left_of(slope.values)
     across /= np.linalg.norm(across, axis=1)[:, None]
     aims = np.array([gate.place for gate in task.gates])
     rows = [place.along(across)]
@@ -344,7 +200,7 @@ def _gate_rows(line: Line, normals: Floats, task: StripProblem) -> tuple[Any, Fl
     turned = [k for k, gate in enumerate(task.gates) if gate.direction is not None]
     if turned:
         aside = np.zeros((len(task.gates), 2))
-        aside[turned] = left_of(np.array([task.gates[k].direction for k in turned]))
+        aside[turned] = _left_of(np.array([task.gates[k].direction for k in turned]))
         rows.append(slope.along(aside)[turned])
         values.append(-(slope.values * aside).sum(axis=1)[turned])
     return csr_array(vstack(rows)), np.concatenate(values)

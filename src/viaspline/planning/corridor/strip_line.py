@@ -11,7 +11,8 @@ import numpy as np
 
 from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.planning.corridor.minimum_curvature import Line, StripProblem
+from viaspline.planning.corridor.line_in_strip import Line
+from viaspline.planning.corridor.strip_problem import StripProblem
 
 AT_JOINT_PART = 1e-9  # a gate so near to a joint lies on it, as a parameter
 
