@@ -14,7 +14,8 @@ from viaspline.report.csv_tables import run_csv
 from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import run_json
 from viaspline.report.run_picture import run_picture
-from viaspline.report.terminal_tables import console, run_tables
+from viaspline.report.run_tables import run_tables
+from viaspline.report.terminal_tables import console
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 

@@ -60,7 +60,8 @@ def plan_mission(asked: Mission, file: Path, out: Path | None, *, quiet: bool) -
             contents |= results.mission_contents(planned.mission, folder.path)
         files = results.write_all(folder, contents, watch.times)
     if not quiet:
-        from viaspline.report.terminal_tables import plan_tables, show
+        from viaspline.report.plan_tables import plan_tables
+        from viaspline.report.terminal_tables import show
 
         show(plan_tables(planned, file.stem))
         say_remarks(asked, planned)
@@ -117,7 +118,9 @@ def run_mission(
                     film_run(done, file.stem, film, watch.fraction)
         files = results.write_all(folder, contents, watch.times, done)
     if not quiet:
-        from viaspline.report.terminal_tables import plan_tables, run_tables, show
+        from viaspline.report.plan_tables import plan_tables
+        from viaspline.report.run_tables import run_tables
+        from viaspline.report.terminal_tables import show
 
         show(plan_tables(plan, file.stem), run_tables(done, file.stem))
         say_remarks(asked, plan)

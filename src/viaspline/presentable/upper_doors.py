@@ -20,9 +20,9 @@ DOORS: Final = MappingProxyType(
         # In words: a value's facts, as rows of a name and what it is.
         "facts of Mission": "report.summary:summary",
         "facts of Fleet": "report.fleet_summary:fleet_summary",
-        "facts of Plan": "report.terminal_tables:plan_rows",
+        "facts of Plan": "report.plan_tables:plan_rows",
         "facts of SpatialPlan": "report.space.spatial_tables:spatial_plan_rows",
-        "facts of Run": "report.terminal_tables:run_rows",
+        "facts of Run": "report.run_tables:run_rows",
         "facts of SpatialRun": "report.space.spatial_tables:spatial_run_rows",
         "facts of FleetPlan": "report.fleet_tables:fleet_rows",
         "facts of FleetRun": "report.fleet_tables:fleet_run_rows",
