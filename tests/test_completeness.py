@@ -6,9 +6,7 @@
 from __future__ import annotations
 
 import math
-import sys
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,7 +16,6 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.ndimage import label
 
-sys.path.insert(0, str(Path(__file__).parent))
 import viaspline as vs
 from mazes import concave_rings, nested_traps, random_cells, rooms_with_doors, thin_walls
 from ways_by_areas import Place, core_of, least_room, roomy_places, squares_of, truth

@@ -13,19 +13,16 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from check_links import broken_links
+from command_reference import command_reference, error_reference
+from fences import fences, pictures
+from proven_page import TARGET, proven_page
+from run_page import PageError, run_page
+
+from viaspline import __all__ as exported
+from viaspline.cli import cli
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.append(str(ROOT / "docsite"))
-
-from check_links import broken_links  # noqa: E402
-from command_reference import command_reference, error_reference  # noqa: E402
-from fences import fences, pictures  # noqa: E402
-from proven_page import TARGET, proven_page  # noqa: E402
-from run_page import PageError, run_page  # noqa: E402
-
-from viaspline import __all__ as exported  # noqa: E402
-from viaspline.cli import cli  # noqa: E402
-
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 TUTORIALS = ("start/five-minutes", "start/your-map")
 

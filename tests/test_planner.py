@@ -1,14 +1,11 @@
 """Which sides a plan takes and what it says of the others; what it refuses, and the remedy."""
 
 import math
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
 import viaspline as vs
 from asked_missions import BOUNDS, Oracle, clear, disc, mission
 from viaspline.planning.plan_path import find_path

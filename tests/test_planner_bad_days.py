@@ -2,15 +2,12 @@
 
 import itertools
 import math
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
 
-sys.path.insert(0, str(Path(__file__).parent))
 import viaspline as vs
 from asked_missions import BOUNDS, Oracle, clear, disc, mission
 from viaspline.planning.plan_path import find_path

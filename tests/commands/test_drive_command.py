@@ -9,9 +9,6 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-sys.path.insert(0, str(Path(__file__).parents[1] / "links" / "mavlink"))
 from pymavlink_vehicle import COPTER, PymavlinkVehicle
 from vehicle_on_udp import VehicleOnUdp
 

@@ -1,16 +1,12 @@
 """``viaspline upload``, on a real port to a vehicle that speaks through pymavlink."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 import shapely
 from click.testing import CliRunner, Result
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-sys.path.insert(0, str(Path(__file__).parents[1] / "links" / "mavlink"))
 from pymavlink_vehicle import PX4, PymavlinkVehicle, metres_per_degree
 from vehicle_on_udp import VehicleOnUdp
 

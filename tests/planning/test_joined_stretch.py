@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
-from pathlib import Path as Folder
 from typing import Any
 
 import numpy as np
@@ -12,6 +10,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from replanned_paths import LEAVING, Oracle, check, disc, start
 from shapely.affinity import rotate, translate
 
 import viaspline as vs
@@ -21,10 +20,6 @@ from viaspline.planning.problem.splice import run_out
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.replan import from_rest, reflex
 from viaspline.robot.replanning.deadline import STEP_WORK_S
-
-sys.path.insert(0, str(Folder(__file__).parent))
-
-from replanned_paths import LEAVING, Oracle, check, disc, start
 
 
 @pytest.mark.parametrize("mode", LEAVING)

@@ -1,19 +1,14 @@
 import math
-import sys
-from pathlib import Path as Folder
 from typing import Any
 
 import numpy as np
 import pytest
+from replanned_paths import MODES, Oracle, check, disc, served, start
 
 import viaspline as vs
 from viaspline.curve.path import Path, PathVia
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.replan import from_rest, from_rest_nearby, planned, reflex
-
-sys.path.insert(0, str(Folder(__file__).parent))
-
-from replanned_paths import MODES, Oracle, check, disc, served, start
 
 EIGHT = [[20, 20], [80, 80], [80, 20], [20, 80], [20, 20], [80, 80]]
 

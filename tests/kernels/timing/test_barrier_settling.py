@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
+from barrier_terms import numpy_value, random_terms, seeds
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
-from barrier_terms import numpy_value, random_terms, seeds
 
 from viaspline.kernels.timing.barrier_settling import barrier_lack, barrier_settled
 from viaspline.kernels.timing.speed_barrier import BarrierTerms

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
+from barrier_terms import numpy_value, random_terms, seeds
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
-
-sys.path.insert(0, str(Path(__file__).parent))
-from barrier_terms import numpy_value, random_terms, seeds
 
 from viaspline.kernels.timing.barrier_newton import barrier_least, barrier_limit
 from viaspline.kernels.timing.speed_barrier import barrier_value, motion_time

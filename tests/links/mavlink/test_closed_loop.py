@@ -1,16 +1,12 @@
 """Vehicles driven in a closed loop, speaking through pymavlink, in simulated time."""
 
 import math
-import sys
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
-
-sys.path.insert(0, str(Path(__file__).parent))
 from pymavlink_vehicle import (
     ARDUPILOT,
     BOAT,

@@ -2,13 +2,10 @@
 
 import os
 import socket
-import sys
 import threading
-from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[2]))
 from free_ports import free_port
 from viaspline.errors import LinkError
 from viaspline.links.mavlink.addresses import LinkAddress, parse_address

@@ -1,15 +1,11 @@
 """A mission onto a vehicle that speaks through pymavlink, and what comes of bad days."""
 
 import errno
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from pymavlink_vehicle import ARDUPILOT, PX4, PymavlinkVehicle, items_like
 from simulated_link import SimulatedLink
 

@@ -1,13 +1,9 @@
 """Bad days of a drive: each ends as it should, and nobody moves who shouldn't."""
 
 import math
-import sys
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
 from driven_day import AheadPilot, Day, all_but
 from pymavlink_vehicle import ARDUPILOT, COPTER, HEALTHY, PX4, PymavlinkVehicle
 

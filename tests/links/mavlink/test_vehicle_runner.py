@@ -1,11 +1,6 @@
 """Before a drive, and however it ends: what isn't ready is refused, what moves is stopped."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
 from driven_day import AheadPilot, Day, all_but
 from pymavlink_vehicle import HEALTHY, PymavlinkVehicle
 

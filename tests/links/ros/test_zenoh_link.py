@@ -7,18 +7,15 @@ our own would agree on anything.
 import json
 import socket
 import struct
-import sys
 import threading
 import time
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
-sys.path.insert(0, str(Path(__file__).parents[2]))
 from free_ports import free_port
 from viaspline.errors import LinkError
 from viaspline.links.ros import ros_mailbox, zenoh_link

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
+from unseen_flights import CLEARANCE, RADIUS, gaps_and_speeds, mission, moves, wanderer
 
 from viaspline.errors import GeometryError
 from viaspline.report.space.flight_picture import how_near_in_space
@@ -17,9 +15,6 @@ from viaspline.space.online import watch_flight
 from viaspline.space.online.fly import fly
 from viaspline.space.plan_spatial import plan_spatial
 from viaspline.studio.space.simulated_flight import flown
-
-sys.path.insert(0, str(Path(__file__).parent))
-from unseen_flights import CLEARANCE, RADIUS, gaps_and_speeds, mission, moves, wanderer
 
 CROSSING = moves("kite", 1.0, [[0, 40, -24, 10], [30, 40, 24, 10]])
 HEAD_ON = moves("plane", 1.0, [[0, 80, 2, 10], [40, -20, 2, 10]])

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
+from unseen_flights import gaps_and_speeds, mission, moves, wanderer
 
 from viaspline.mission.space.flying_body import FlyingBody
 from viaspline.space.online.fly import fly
 from viaspline.space.online.passive_flight import FlightThreats
 from viaspline.space.plan_spatial import plan_spatial
-
-sys.path.insert(0, str(Path(__file__).parent))
-from unseen_flights import gaps_and_speeds, mission, moves, wanderer
 
 TOP = 3.0
 PASSIVE = {"max_speed_mps": TOP, "safety": "passive"}
