@@ -6,7 +6,8 @@
 import { heightOf, withHeight } from "../core/heights.js";
 import { onTheme } from "../draw/theme.js";
 import { fitted, lazily } from "../panels/dom.js";
-import { ElevationPicture, LEFT_PX, RIGHT_PX } from "./elevation_picture.js";
+import { LEFT_PX, RIGHT_PX } from "./elevation_frame.js";
+import { ElevationPicture } from "./elevation_picture.js";
 
 const REACH_PX = 14;
 
