@@ -48,7 +48,7 @@ def test_a_map_that_was_made_in_memory_is_kept() -> None:
      '{"squares_of": [2, 2], "resolution": 1, "origin": [0, 0, 0], "source": null, "bits": "xx"}'],
 )  # fmt: skip
 def test_what_is_no_mission_is_refused(text: str) -> None:
-    with pytest.raises(MessageError, match="no JSON of a mission"):
+    with pytest.raises(MessageError, match="the JSON of a mission"):
         mission_from(text)
     with pytest.raises(vs.MissionError):
         mission_from("[1, 2]")

@@ -145,7 +145,7 @@ def test_what_a_bag_lacks_is_named(more: dict[str, Any], words: str, tmp_path: P
 
 def test_a_database_that_is_none_or_cut_is_told(tmp_path: Path) -> None:
     (tmp_path / "a.db3").write_bytes(b"nothing of the sort, " * 100)
-    with pytest.raises(BagError, match="no database"):
+    with pytest.raises(BagError, match="a rosbag2 database"):
         read_drive(tmp_path / "a.db3")
     bag = record(tmp_path / "b", storage=StoragePlugin.SQLITE3)
     (file,) = bag.glob("*.db3")

@@ -52,7 +52,7 @@ def test_an_origin_that_was_set_in_the_studio_is_taken_and_told(tmp_path: Path) 
     assert call(mission, tmp_path / "yard.csv", "-q").exit_code == 0  # which needs none
     refused = call(mission, out)
     assert refused.exit_code == 2
-    assert "[147.25, 8.5] is no latitude and longitude" in refused.output
+    assert "[147.25, 8.5] isn't a latitude and a longitude" in refused.output
 
 
 def test_a_plan_that_was_saved_is_exported_as_its_mission_is(tmp_path: Path) -> None:
@@ -84,7 +84,7 @@ def test_each_robot_of_a_fleet_has_its_file(tmp_path: Path) -> None:
         (("fig8-patrol.yaml", "x.plan"), "--origin LAT,LON"),
         (("fig8-patrol.yaml", "x.dxf"), "the endings are"),
         (("fig8-patrol.yaml", "x"), "the endings are"),
-        (("fig8-patrol.yaml", "x.plan", "--origin", "north"), "is no LAT,LON"),
+        (("fig8-patrol.yaml", "x.plan", "--origin", "north"), "isn't LAT,LON"),
         (("fig8-patrol.yaml", "x.plan", "--origin", "91,0"), "can't be the origin"),
         (("fig8-patrol.yaml", "x.csv", "--chord-error", "-1"), "chord-error"),
         (("fig8-patrol.yaml", "x.csv", "--chord-error", "0"), "chord_error is 0"),

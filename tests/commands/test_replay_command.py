@@ -60,7 +60,7 @@ def test_missions_without_a_navigator_have_no_bag(folder: Path, text: str, words
 def test_what_is_no_bag_is_an_error_of_the_arguments(folder: Path) -> None:
     done = CliRunner().invoke(cli, ["replay", f"{folder}/short.yaml"])
     assert done.exit_code == 2
-    assert "no MCAP" in done.output
+    assert "an MCAP file" in done.output
     missing = CliRunner().invoke(cli, ["replay", f"{folder}/missing.mcap"])
     assert missing.exit_code == 2
     assert "there is no such file; give a .mcap" in missing.output

@@ -145,7 +145,7 @@ def test_without_a_home_the_first_position_is_the_start() -> None:
         (
             "QGC WPL 110\n0 0 0 16 0 0 0 0 7 8 9 1\n1 0 3 16 0 0 0 0 95 8 9 1\n",
             ":3:1",
-            "no latitude",
+            "a latitude",
         ),
         (
             "QGC WPL 110\n0 0 0 16 0 0 0 0 7 8 9 1\n1 0 3 16 0 0 0 0 -7 -170 9 1\n",

@@ -26,11 +26,11 @@ def test_a_studio_file_without_an_origin_says_none(tmp_path: Path) -> None:
 )
 def test_an_origin_that_can_not_be_meant_is_refused(said: object, tmp_path: Path) -> None:
     beside(tmp_path / "yard.yaml").write_text(json.dumps({"origin": said}))
-    with pytest.raises(MissionError, match="is no latitude and longitude; give --origin"):
+    with pytest.raises(MissionError, match="isn't a latitude and a longitude; give --origin"):
         studio_origin(tmp_path / "yard.yaml")
 
 
 def test_a_studio_file_that_is_no_json_is_named(tmp_path: Path) -> None:
     beside(tmp_path / "yard.yaml").write_text("{")
-    with pytest.raises(MissionError, match=r"yard.yaml.studio.json: is no JSON"):
+    with pytest.raises(MissionError, match=r"yard.yaml.studio.json: isn't JSON"):
         studio_origin(tmp_path / "yard.yaml")

@@ -143,7 +143,7 @@ def test_a_terrain_of_too_many_heights_is_refused_before_they_are_read(tmp_path:
 def test_other_and_broken_files_are_refused(tmp_path: Path) -> None:
     file = tmp_path / "dem.tif"
     file.write_bytes(b"II*\x00 no more")
-    with pytest.raises(MissionError, match="is no GeoTIFF, or a broken one"):
+    with pytest.raises(MissionError, match="isn't a GeoTIFF, or is a broken one"):
         read_geotiff(file)
     short = written(tmp_path)
     short.write_bytes(short.read_bytes()[:-8])

@@ -188,7 +188,7 @@ def test_each_mistake_in_the_yaml_has_its_line_and_its_remedy(
     ("text", "fault"),
     [
         ("", "map.yaml:1:1: the file is empty; it should be a mapping with the keys image,"),
-        ("- 1\n", "map.yaml:1:1: the file is no mapping;"),
+        ("- 1\n", "map.yaml:1:1: the file isn't a mapping;"),
         ("image: [\n", "map.yaml:2:1: is not YAML:"),
         ("image: a: b\n", "map.yaml:1:9: is not YAML:"),
         ("image: \x01\n", "map.yaml:1:1: is not YAML:"),

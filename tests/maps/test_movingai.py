@@ -70,8 +70,8 @@ def test_problems_are_in_metres_from_the_lower_left_corner(tmp_path: Path) -> No
         (HEAD + "...\n...\n...\n", ":7:1: the map has 3 rows, but its header says 2"),
         (HEAD + "...\n..\n", ":6:1: the row has 2 squares, but the header says 3; correct the"),
         (HEAD + "....\n...\n", ":5:1: the row has 4 squares, but the header says 3"),
-        (HEAD + "...\n.x.\n", ":6:2: the character 'x' is no kind of square; it should be one"),
-        (HEAD + "...\n.\u00e9\n", ":6:2: the character '\u00c3' is no kind of square"),
+        (HEAD + "...\n.x.\n", ":6:2: the character 'x' isn't a kind of square; it should be one"),
+        (HEAD + "...\n.\u00e9\n", ":6:2: the character '\u00c3' isn't a kind of square"),
     ],
 )
 def test_each_mistake_in_a_map_has_its_line_and_its_remedy(

@@ -108,7 +108,7 @@ ONE = {(1, 2, 3): BLOCKED, (1, 2, 4): FREE}
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        (b"", "is no binary OctoMap"),
+        (b"", "isn't a binary OctoMap"),
         (b"# Octomap OcTree file\nid OcTree\n", "is a full OctoMap"),
         (b"# Octomap OcTree binary file\nid OcTree\nsize 3\nres 1\n", "its header has no end"),
         (tree(ONE).replace(b"res 0.5\n", b""), "the header lacks res"),

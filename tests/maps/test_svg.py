@@ -229,7 +229,7 @@ def test_what_is_not_drawn_and_what_belongs_to_others_is_left_out(tmp_path: Path
         ('<rect width="abc"/>', ":2:1: the width 'abc' isn't understood; it should be a number"),
         ('<circle r="-1"/>', ":2:1: the r '-1' isn't understood; it should be a number of at leas"),
         ('<circle cx="3em"/>', ":2:1: the cx '3em' isn't understood; it should be a number, with "),
-        ('<polygon points="1,2 3"/>', ":2:1: the polygon has points that are no pairs of numbers"),
+        ('<polygon points="1,2 3"/>', ":2:1: the polygon has points that aren't pairs of numbers"),
         ('<ellipse fill="none"/>', ":2:1: the ellipse isn't filled; fill it, or leave it out"),
         ('<circle r="2e9"/>', ":2:1: the circle has a coordinate that is too far away; it should"),
         ('<circle r="1e999"/>', ":2:1: there is a coordinate that is too far away; it should be "),

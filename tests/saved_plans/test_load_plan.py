@@ -338,10 +338,10 @@ def test_what_is_no_plan_is_told(saved: Saved, tmp_path: Path) -> None:
     with pytest.raises(vs.MissionError, match="there is no such file"):
         vs.load_plan(tmp_path)
     (tmp_path / "plan.json").write_text("{")
-    with pytest.raises(vs.SavedPlanError, match="is no JSON"):
+    with pytest.raises(vs.SavedPlanError, match="isn't JSON"):
         vs.load_plan(tmp_path, EXAMPLES / "fig8-patrol.yaml")
     (tmp_path / "plan.json").write_text("[" * 100_000)
-    with pytest.raises(vs.SavedPlanError, match="is no JSON"):
+    with pytest.raises(vs.SavedPlanError, match="isn't JSON"):
         vs.load_plan(tmp_path, EXAMPLES / "fig8-patrol.yaml")
     (tmp_path / "plan.json").write_text("[1]")
     with pytest.raises(vs.SavedPlanError, match="holds no plan"):

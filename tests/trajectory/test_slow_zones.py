@@ -155,7 +155,7 @@ def test_in_space_a_zone_stands_upright() -> None:
 
 def test_what_is_no_area_is_refused_by_name() -> None:
     bow = [(0, 0), (4, 4), (4, 0), (0, 4)]
-    with pytest.raises(GeometryError, match="speed zone 'yard' is no area"):
+    with pytest.raises(GeometryError, match="speed zone 'yard' isn't an area"):
         retime(line(), LIMITS, zones=[zone(bow)])
     flat = np.linspace(0, 3, 4)[:, None]
     with pytest.raises(GeometryError, match="one dimension"):

@@ -58,7 +58,7 @@ def check_magic(path: Path) -> None:
         if start.startswith(magic):
             raise BagError(path, words)
     if not start.startswith(MAGIC):
-        raise BagError(path, "is no MCAP file; give a .mcap, or the folder of a rosbag2")
+        raise BagError(path, "isn't an MCAP file; give a .mcap, or the folder of a rosbag2")
 
 
 def _messages(file: Any, wanted: Wanted, extent: BagExtent) -> Iterator[RawMessage]:

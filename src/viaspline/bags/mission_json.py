@@ -96,7 +96,7 @@ def _data(text: str) -> Any:
     try:
         return json.loads(text, object_hook=_unpacked)
     except (ValueError, RecursionError, zlib.error, KeyError, TypeError) as error:
-        raise MessageError(f"that is no JSON of a mission: {error}") from None
+        raise MessageError(f"that isn't the JSON of a mission: {error}") from None
 
 
 def _unpacked(value: dict[str, Any]) -> Any:

@@ -60,7 +60,7 @@ def _database(path: Path, wanted: Wanted, extent: BagExtent) -> Iterator[RawMess
             yield from _rows(database, wanted, extent)
     except sqlite3.DatabaseError as error:
         if not extent.topics:
-            raise BagError(path, f"is no database of a rosbag2: {error}") from None
+            raise BagError(path, f"isn't a rosbag2 database: {error}") from None
         extent.damage = str(error)
 
 

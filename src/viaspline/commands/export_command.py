@@ -176,5 +176,5 @@ def _place(said: str | None) -> tuple[float, float] | None:
     try:
         latitude, longitude = (float(part) for part in said.split(","))
     except ValueError:
-        raise click.UsageError(f"--origin {said} is no LAT,LON such as 47.3977,8.5456") from None
+        raise click.UsageError(f"--origin {said} isn't LAT,LON such as 47.3977,8.5456") from None
     return latitude, longitude

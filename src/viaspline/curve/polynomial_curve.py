@@ -141,7 +141,7 @@ def polynomial_from(curve: object) -> PolynomialCurve | None:
     if pieces.ndim != 3 or np.iscomplexobj(pieces):
         name = with_article(type(curve).__name__)
         raise GeometryError(
-            f"{name} with values of shape {pieces.shape[2:]} is no curve; give "
+            f"{name} with values of shape {pieces.shape[2:]} isn't a curve; give "
             "one with values [x, y] or [x, y, z]"
         )
     is_sane = np.isfinite(ends).all() and (np.abs(pieces) <= LARGEST).all()  # NaN isn't, either

@@ -135,7 +135,7 @@ def _chords(curve: StatedCurve, first: float, last: float) -> ProvableCurve:
     if (strays > bows + ROUNDED * (1.0 + size)).any():
         k = int(np.argmax(strays - bows))
         raise GeometryError(
-            f"curve.second_derivative_bound is no bound: between {joints[k]:g} and "
+            f"curve.second_derivative_bound isn't a bound: between {joints[k]:g} and "
             f"{joints[k + 1]:g} the curve bends more than it says"
         )
     ends = points[:-1], points[1:]

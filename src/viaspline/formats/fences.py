@@ -45,7 +45,7 @@ def _faults(source: str, area: FenceArea) -> list[Fault]:
         return [fault_at(source, area.place, problem, "give a number of metres greater than 0")]
     numbers = [x for corner in (*area.corners, area.center or (0.0, 0.0)) for x in corner]
     if not all(map(math.isfinite, numbers)):
-        problem = "the fence has a coordinate that is no number"
+        problem = "the fence has a coordinate that isn't a number"
         return [fault_at(source, area.place, problem, "give latitude and longitude in degrees")]
     return []
 

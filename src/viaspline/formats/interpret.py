@@ -153,7 +153,7 @@ def _check_coordinates(
     faults = []
     for latitude, longitude, place in named:
         if not (abs(latitude) <= 90 and abs(longitude) <= 360):
-            problem = f"{latitude:g}, {longitude:g} is no latitude and longitude"
+            problem = f"{latitude:g}, {longitude:g} isn't a latitude and a longitude"
             remedy = "latitudes are -90 to 90, longitudes -180 to 180 degrees"
             faults.append(fault_at(source, place, problem, remedy))
         # The plane folds back on the far side of the globe: ask the angle, not the metres.

@@ -67,7 +67,7 @@ class QgcPlan(WaypointFormat):
             _check_versions(root, mission)
         elif "items" not in root:
             root.fault(
-                "is no plan of QGroundControl: it has neither mission nor items",
+                "isn't a plan of QGroundControl: it has neither mission nor items",
                 'it should have "fileType": "Plan" and a mission',
             )
         notes: dict[str, list[str]] = {}
@@ -180,7 +180,7 @@ def _origin(tree: Tree) -> LatLon | None:
     if not numbers:
         return None
     if not (abs(numbers[0]) <= 90 and abs(numbers[1]) <= 180):
-        tree.fault("is no latitude and longitude", "correct it, or leave it out")
+        tree.fault("isn't a latitude and a longitude", "correct it, or leave it out")
     return numbers[0], numbers[1]
 
 

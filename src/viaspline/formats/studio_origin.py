@@ -46,12 +46,12 @@ def studio_origin(mission: Path) -> LatLon | None:
     try:
         data = json.loads(read_text(file, STUDIO_FILE))
     except (ValueError, RecursionError):
-        raise MissionError([Fault("", "is no JSON", REMEDY, str(file))]) from None
+        raise MissionError([Fault("", "isn't JSON", REMEDY, str(file))]) from None
     said = data.get("origin") if isinstance(data, dict) else None
     if said is None:
         return None
     if not _is_on_globe(said):
-        problem = f"{json.dumps(said)[:40]} is no latitude and longitude"
+        problem = f"{json.dumps(said)[:40]} isn't a latitude and a longitude"
         raise MissionError([Fault("origin", problem, REMEDY, str(file))])
     return float(said[0]), float(said[1])
 

@@ -126,7 +126,7 @@ def read_drive_csv(path: Path) -> DriveLog:
     except StopIteration:
         raise DriveLogError(f"{path}: is empty; a log has {', '.join(COLUMNS)}") from None
     except csv.Error as error:
-        raise DriveLogError(f"{path}: is no CSV file: {error}") from None
+        raise DriveLogError(f"{path}: isn't a CSV file: {error}") from None
     columns = np.array(rows).reshape(-1, len(COLUMNS)).T
     if wanted[3] == "heading_deg":
         columns[3] = np.radians(columns[3])

@@ -112,7 +112,7 @@ def _shapes(path: Path, item: Any, key: str, name: str | None) -> Iterator[_Shap
             yield _polygon(path, rings, f"{_join(key, 'coordinates')}[{i}]", name)
     else:
         words = with_article(kind) if isinstance(kind, str) else "an object without a type"
-        raise refusal(path, f"found {words}, which is no area", _ONLY, key=key)
+        raise refusal(path, f"found {words}, which isn't an area", _ONLY, key=key)
 
 
 def _each(path: Path, item: Any, member: str, key: str, name: str | None) -> Iterator[_Shape]:
@@ -177,4 +177,4 @@ def _ring(path: Path, ring: Any, key: str) -> Floats:
 
 def _no_ring(path: Path, key: str) -> MissionError:
     remedy = "it should be [[x, y], [x, y], [x, y], ...], the first corner once more at the end"
-    return refusal(path, "is no ring of corners", remedy, key=key)
+    return refusal(path, "isn't a ring of corners", remedy, key=key)

@@ -69,7 +69,7 @@ def read_geotiff(path: str | Path, *, source: str | None = None) -> Terrain:
         page = _first_page(file, read_bytes(file, TERRAIN_FILE))
         unread = words.unread(_NEEDED)
         if unread is not None:
-            problem = f"is no GeoTIFF, or a broken one: {unread}"
+            problem = f"isn't a GeoTIFF, or is a broken one: {unread}"
             raise refusal(file, problem, "save the terrain again")
         return _terrain(file, page, str(path) if source is None else source)
 
@@ -101,7 +101,7 @@ def _first_page(path: Path, data: bytes) -> TiffPage:
     try:
         page = TiffFile(BytesIO(data)).pages[0]
     except Exception as error:  # of a broken file it raises whatever it stumbles on
-        problem = f"is no GeoTIFF, or a broken one: {error}"
+        problem = f"isn't a GeoTIFF, or is a broken one: {error}"
         raise refusal(path, problem, "save the terrain again") from None
     assert isinstance(page, TiffPage)
     return page

@@ -82,7 +82,7 @@ def read_mapping(path: Path, text: str, remedy: str) -> dict[str, Marked]:
     except (YAMLError, ValueError, RecursionError) as error:
         raise refusal(path, f"is not YAML: {error}", remedy, at=(1, 1)) from None
     if not isinstance(root, MappingNode):
-        problem = "the file is empty" if not text.strip() else "the file is no mapping"
+        problem = "the file is empty" if not text.strip() else "the file isn't a mapping"
         raise refusal(path, problem, remedy, at=(1, 1))
     return {
         str(key.value): _marked(value)

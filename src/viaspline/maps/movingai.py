@@ -77,7 +77,7 @@ def _wrong_row(path: Path, cells: bytes, width: int, line: int) -> MissionError:
         problem = f"the row has {len(cells)} squares, but the header says {width}"
         return refusal(path, problem, "correct the row or the width", at=(line, 1))
     column = next(i for i, cell in enumerate(cells) if cell not in _FREE + _BLOCKED)
-    problem = f"the character {chr(cells[column])!r} is no kind of square"
+    problem = f"the character {chr(cells[column])!r} isn't a kind of square"
     return refusal(path, problem, "it should be one of . G S @ O T W", at=(line, column + 1))
 
 

@@ -70,7 +70,7 @@ def _header(path: Path, data: bytes) -> tuple[int, float, int]:
     """How many nodes there are, the side of a cube [m], and where the bits begin."""
     if not data.startswith(_FIRST):
         is_full = data.startswith(b"# Octomap OcTree file")
-        problem = "is a full OctoMap, not a binary one" if is_full else "is no binary OctoMap"
+        problem = "is a full OctoMap, not a binary one" if is_full else "isn't a binary OctoMap"
         raise refusal(path, problem, _REMEDY, at=(1, 1))
     header = _HEADER.match(data[:100_000])
     if header is None:

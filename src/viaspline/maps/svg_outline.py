@@ -119,7 +119,7 @@ def segments_of(tag: str, attributes: Mapping[str, str]) -> tuple[Any, ...]:
     if tag in ("polygon", "polyline"):
         points = _plain(attributes.get("points", ""))
         if _PAIRS.fullmatch(points) is None:
-            raise OutlineError(f"the {tag} has points that are no pairs of numbers", "correct them")
+            raise OutlineError(f"the {tag} has points that aren't pairs of numbers", "correct them")
         return tuple(Path(f"M{points}z")) if points.strip() else ()
     values = {key: length_of(key, attributes) for key in _LENGTHS if key in attributes}
     shape = {"rect": Rect, "circle": Circle, "ellipse": Ellipse}[tag]

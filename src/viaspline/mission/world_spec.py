@@ -94,7 +94,7 @@ class SpeedZone(
         if not area.is_valid or area.is_empty:
             reason = shapely.is_valid_reason(area)
             raise GeometryError(
-                f"the polygon of speed zone '{self.name or ''}' is no area: {reason}"
+                f"the polygon of speed zone '{self.name or ''}' isn't an area: {reason}"
             )
         return self.polygon
 

@@ -53,7 +53,7 @@ class PlanFile:
         try:
             data = json.loads(read_text(file, kind))
         except (ValueError, RecursionError) as error:
-            raise SavedPlanError(file, f"is no JSON ({error}); {REMEDY}") from None
+            raise SavedPlanError(file, f"isn't JSON ({error}); {REMEDY}") from None
         if not isinstance(data, dict):
             raise SavedPlanError(file, f"holds no plan; {REMEDY}")
         return cls(file, data)
@@ -99,7 +99,7 @@ class PlanFile:
         except (TypeError, ValueError, OverflowError):
             raise self.wrong(f"{'.'.join(keys)} holds something else than numbers") from None
         if not np.isfinite(array).all():
-            raise self.wrong(f"{'.'.join(keys)} holds something that is no finite number")
+            raise self.wrong(f"{'.'.join(keys)} holds something that isn't a finite number")
         return array
 
     def path(self) -> Path:

@@ -172,7 +172,7 @@ def _plan_of(planned: Planned, kind: str, message: Message) -> AnyPlan:
     found: AnyPlan | None
     if not isinstance(planned, PlannedFleet):
         if kind in FLEET_FILES:
-            raise RefusedError(f"this is no fleet: it has no {kind}")
+            raise RefusedError(f"this isn't a fleet: it has no {kind}")
         found = planned.plan
     elif kind in FLEET_FILES:
         found = planned.plan

@@ -46,7 +46,7 @@ class Folder:
             path.exists()
         except (OSError, RuntimeError) as error:  # too long, or a link that leads back to itself
             why = (getattr(error, "strerror", None) or "it is a link that leads nowhere").lower()
-            raise RefusedError(f"'{name:.40}' is no name of a file: {why}") from None
+            raise RefusedError(f"'{name:.40}' isn't a file name: {why}") from None
         if path == self.root or not path.is_relative_to(self.root):
             raise RefusedError(f"'{name}' lies outside of the studio's folder '{self.root.name}'")
         return path

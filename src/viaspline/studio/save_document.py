@@ -55,5 +55,5 @@ def origin_from(text: str) -> LatLon | None:
     except ValueError:
         latitude = longitude = math.nan
     if not (math.isfinite(latitude) and math.isfinite(longitude)):
-        raise RefusedError(f"'{text:.40}' is no origin; give latitude, longitude in degrees")
+        raise RefusedError(f"'{text:.40}' isn't an origin; give latitude, longitude in degrees")
     return latitude, longitude

@@ -47,7 +47,7 @@ def checked_rings(name: str, rings: Iterable[Any]) -> tuple[Ring, ...]:
     for i, ring in enumerate(all_of(name, rings, object, "give rings [[x, y], ...]")):
         corners = numbers_from(f"{name}[{i}]", ring)
         if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
-            raise GeometryError(f"{name}[{i}] is no ring; give three corners [x, y] at least")
+            raise GeometryError(f"{name}[{i}] isn't a ring; give three corners [x, y] at least")
         if not np.isfinite(corners).all():
             raise GeometryError(f"{name}[{i}] has a corner that is nowhere; give finite numbers")
         found.append(tuple((x, y) for x, y in corners.tolist()))

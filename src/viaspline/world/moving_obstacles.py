@@ -60,7 +60,7 @@ class MovingObstacles(ComparedByValue):
                 raise GeometryError(f"obstacle {i}: {fault.problem}; {fault.remedy}")
         times = numbers_from("since", since)
         if times.shape not in ((), (len(self.obstacles),)) or not np.isfinite(times).all():
-            raise GeometryError("since is no finite time for all, nor one for each of them")
+            raise GeometryError("since isn't a finite time for all, nor one for each of them")
         self.since: tuple[float, ...] = tuple(
             np.broadcast_to(times, (len(self.obstacles),)).tolist()
         )

@@ -36,7 +36,7 @@ def outline(footprint: ArrayLike) -> NDArray[np.float64]:
     """
     corners = np.array(numbers_from("footprint", footprint))
     if corners.ndim != 2 or corners.shape[1] != 2:
-        raise GeometryError(f"a footprint of shape {corners.shape} is no outline; give (k, 2)")
+        raise GeometryError(f"a footprint of shape {corners.shape} isn't an outline; give (k, 2)")
     if not np.isfinite(corners).all():
         raise GeometryError("the footprint contains NaN or infinity; give finite numbers")
     fault = _fault(tuple(map(tuple, corners.tolist())))

@@ -59,7 +59,7 @@ def test_a_point_is_read_and_typed_as_latitude_and_longitude(visit: Visit, patro
     pair = page.page.get_by_label("Latitude, longitude", exact=True)
     assert pair.count() == 0  # nobody said where 0, 0 is
     type_origin(page, "nowhere")
-    page.page.get_by_role("alert").filter(has_text="no latitude and longitude").wait_for()
+    page.page.get_by_role("alert").filter(has_text="a latitude and a longitude").wait_for()
     type_origin(page, "N 47.3977 E 8.5456")
     pair.wait_for()
     frame = LocalFrame(*ORIGIN)

@@ -97,7 +97,7 @@ def test_a_mission_has_no_files_of_a_fleet(start: Start, tmp_path: Path) -> None
     path.write_text("route: {start: [0, 0], goal: [9, 0]}\n")
     with start(path).client() as client:
         client.edit()
-        assert "no fleet" in refusal(client, "fleet.json")
+        assert "isn't a fleet" in refusal(client, "fleet.json")
 
 
 def refusal(client: Any, kind: str) -> str:

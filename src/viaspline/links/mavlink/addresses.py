@@ -53,7 +53,7 @@ def parse_address(text: str) -> LinkAddress:
     if kind == "serial":
         return _serial(text, rest)
     if kind not in KINDS:
-        raise LinkError(text, "is no address of a vehicle", f"it can be {_FORMS}")
+        raise LinkError(text, "isn't the address of a vehicle", f"it can be {_FORMS}")
     place, _, digits = rest.rpartition(":")
     if not place or not (digits.isascii() and digits.isdigit()) or not 0 < int(digits) < 65536:
         raise LinkError(text, "names no host and port", f"it can be {_FORMS}")

@@ -39,7 +39,7 @@ def mission_origin(path: Path, given: str | None) -> LatLon:
     try:
         latitude, longitude = (float(part) for part in given.split(","))
     except ValueError:
-        raise LinkError(given, "is no origin", "give --origin 47.1,8.2") from None
+        raise LinkError(given, "isn't an origin", "give --origin 47.1,8.2") from None
     is_on_globe = abs(latitude) <= 90 and abs(longitude) <= 180
     if not is_on_globe or (latitude == 0 and longitude == 0):
         remedy = "latitudes are -90 to 90, longitudes -180 to 180 degrees, and 0,0 means nowhere"

@@ -30,7 +30,7 @@ def rally_points(path: Path) -> tuple[tuple[float, float, float], ...]:
     for tree in root["rallyPoints"]["points"].items():
         numbers = tree.numbers(3, "[latitude, longitude, altitude]")
         if numbers and not all(map(math.isfinite, numbers[:3])):
-            tree.fault("is no place", "give latitude, longitude and altitude")
+            tree.fault("isn't a place", "give latitude, longitude and altitude")
         elif numbers:
             points.append((numbers[0], numbers[1], numbers[2]))
     if root.faults.found:

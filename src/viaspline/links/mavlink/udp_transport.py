@@ -78,7 +78,7 @@ def _cannot_listen(address: LinkAddress, error: OSError) -> LinkError:
         return LinkError(address, "the port is taken", remedy)
     if error.errno == errno.EADDRNOTAVAIL:
         other = f"udpout:{address.place}:{address.number}"
-        problem = f"{address.place} is no address of this machine, so nobody can listen there"
+        problem = f"{address.place} isn't an address of this machine, so nobody can listen there"
         return LinkError(address, problem, f"{other} speaks to it; udp:0.0.0.0:PORT listens")
     why = (error.strerror or str(error)).lower()
     return LinkError(address, f"can't listen ({why})", "try another port")

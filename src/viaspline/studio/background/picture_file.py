@@ -108,7 +108,7 @@ def _opened(path: Path) -> Iterator[Image]:
         fault = error.faults[0]
         raise RefusedError(f"{path.name}: {fault.problem}; {fault.remedy}") from None
     except PIL.UnidentifiedImageError:
-        raise RefusedError(f"{path.name}: is no PNG, JPEG or TIFF that is understood") from None
+        raise RefusedError(f"{path.name}: isn't a PNG, JPEG or TIFF that can be read") from None
     except PIL.Image.DecompressionBombError:
         raise RefusedError(f"{path.name}: has too many pixels; {_SMALLER}") from None
     except (OSError, SyntaxError, ValueError, KeyError, EOFError) as error:

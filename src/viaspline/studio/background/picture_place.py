@@ -105,7 +105,7 @@ def matrix_of(text: str, name: str) -> Matrix:
     except ValueError:
         numbers = []
     if len(numbers) != 6 or not all(map(math.isfinite, numbers)):
-        raise RefusedError(f"{name}: is no world file; it has six lines of a number each")
+        raise RefusedError(f"{name}: isn't a world file; it has six lines of a number each")
     a, d, b, e, c, f = numbers
     return _checked((c - (a + b) / 2, a, b, f - (d + e) / 2, d, e), name)
 

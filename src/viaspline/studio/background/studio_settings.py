@@ -91,7 +91,7 @@ def read_settings(folder: Folder, mission: str) -> tuple[StudioSettings, tuple[s
             return StudioSettings(), ()
         data = json.loads(read_text(path, STUDIO_FILE), parse_constant=_no_number)
         if not isinstance(data, dict):
-            raise RefusedError("it is no JSON object")
+            raise RefusedError("it isn't a JSON object")
         return _parsed(data), ()
     except MissionError as error:
         why = error.faults[0].problem

@@ -45,7 +45,7 @@ export class Earth {
       label: "Latitude, longitude", value: exactWords(frame.toGeodetic(at)), placeholder: "47.3977, 8.5456",
       set: (text) => {
         const pair = pairFrom(text);
-        if (!pair) return this.refuse(`${text || "nothing"} is no latitude and longitude such as 47.3977, 8.5456`);
+        if (!pair) return this.refuse(`${text || "nothing"} isn't a latitude and a longitude such as 47.3977, 8.5456`);
         if (frame.arc(...pair) > MAX_REACH_M) return this.refuse(`${shortWords(pair)} is more than ${MAX_REACH_M / 1000} km from the mission's 0, 0`);
         app.store.edit(moveTo(app.store.doc, id, frame.toLocal(...pair).map(tidy)));
         return true;

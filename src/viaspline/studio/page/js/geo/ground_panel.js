@@ -34,7 +34,7 @@ export class GroundPanel {
       label: "Latitude, longitude of 0, 0", value, placeholder: "not known",
       set: (text) => {
         const pair = text ? pairFrom(text) : [];
-        if (!pair) return this.app.earth.refuse(`${text} is no latitude and longitude such as 47.3977, 8.5456`);
+        if (!pair) return this.app.earth.refuse(`${text} isn't a latitude and a longitude such as 47.3977, 8.5456`);
         files.attempt(() => this.form.remember({ origin: pair.join(", ") }));
         return true;
       },
