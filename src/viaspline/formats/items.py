@@ -8,7 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+if TYPE_CHECKING:
+    from viaspline.mission.space.ground_spec import GroundSpec
 
 LatLon: TypeAlias = tuple[float, float]
 
@@ -131,8 +134,8 @@ class Itinerary:
         notes: What the file holds that a mission can't, or the other way round, by kind: where.
         origin: Where the mission's 0, 0 is [deg], if the file says so; else it is at the start.
         is_flat: Whether the file says that its heights mean nothing.
-        ground: The ground, as a mission has it, if the file or who reads it says so; with it the
-            way is one in space.
+        ground: The ground, as it stands in a mission or read, if the file or who reads it says so;
+            with it the way is one in space.
     """
 
     source: str
@@ -143,4 +146,4 @@ class Itinerary:
     notes: tuple[tuple[str, str], ...] = ()
     origin: LatLon | None = None
     is_flat: bool = False
-    ground: Mapping[str, Any] | None = None
+    ground: Mapping[str, Any] | GroundSpec | None = None

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from viaspline.formats.interpret import mission_of, origin_in
 from viaspline.formats.items import Itinerary, LatLon
 from viaspline.formats.mission_format import MissionFormat
 from viaspline.mission.model import Mission
+
+if TYPE_CHECKING:
+    from viaspline.mission.space.ground_spec import GroundSpec
 
 
 @runtime_checkable
@@ -31,7 +35,7 @@ class WaypointFormat(MissionFormat[Mission], Protocol):
         """The mission of a text; its start is at the home position, if that can be meant."""
         return mission_of(self.parse(text, source))
 
-    def read_over(self, text: str, source: str, ground: Any) -> Mission:
+    def read_over(self, text: str, source: str, ground: Mapping[str, Any] | GroundSpec) -> Mission:
         """The mission in space of a text, over a ground that the file can't say.
 
         Args:
