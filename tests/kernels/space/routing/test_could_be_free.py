@@ -6,12 +6,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import ndimage
 
-from viaspline.kernels.space.routing import voxel_moves as voxel_moves
+from viaspline.kernels.space.packed_space import PackedSpace
+from viaspline.kernels.space.routing import shape_moves as shape_moves
 from viaspline.kernels.space.routing.could_be_free import APART, TOGETHER, UNKNOWN, are_apart
 from viaspline.kernels.space.routing.route_protocol import PlaceLattice
-from viaspline.kernels.space.routing.voxel_block import voxel_block
+from viaspline.maps.voxels import Voxels
+from viaspline.world.space.spatial_world import SpatialWorld
 
-FREE = np.array([-np.inf] * 3 + [np.inf] * 3)
+
+def packed_cubes(blocked: np.ndarray) -> PackedSpace:
+    """Cubes of a metre from 0, 0, 0 on, and nothing else."""
+    return SpatialWorld.of([Voxels(blocked, 1.0)]).packed
 
 
 @given(st.integers(0, 2**32), st.sampled_from([0.2, 0.4, 0.6]))
@@ -21,11 +26,11 @@ def test_cubes_themselves_are_exact_cells(seed: int, share: float) -> None:
     blocked = rng.random(shape) < share
     first, last = rng.integers(0, shape), rng.integers(0, shape)
     blocked[tuple(first)] = blocked[tuple(last)] = False
-    block = voxel_block(blocked, 1.0, (0.0, 0.0, 0.0), FREE)
+    packed = packed_cubes(blocked)
     lattice = PlaceLattice(np.array([0.5, 0.5, 0.5, 1.0]), np.array(shape))
     rooms, _ = ndimage.label(~blocked)
     expected = TOGETHER if rooms[tuple(first)] == rooms[tuple(last)] else APART
-    assert are_apart(block, lattice, first + 0.5, last + 0.5, 0.45, 10**6)[0] == expected
+    assert are_apart(packed, lattice, first + 0.5, last + 0.5, 0.45, 10**6)[0] == expected
 
 
 @pytest.mark.long_without_jit
@@ -34,7 +39,7 @@ def test_cubes_themselves_are_exact_cells(seed: int, share: float) -> None:
 def test_what_samples_connect_is_never_called_apart(seed: int, radius: float, step: float) -> None:
     rng = np.random.default_rng(seed)
     blocked = rng.random((5, 5, 5)) < 0.3
-    block = voxel_block(blocked, 1.0, (0.0, 0.0, 0.0), FREE)
+    packed = packed_cubes(blocked)
     fine = 0.2
     axis = np.arange(0.5 * fine, 5.0, fine)
     places = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1)
@@ -49,30 +54,29 @@ def test_what_samples_connect_is_never_called_apart(seed: int, radius: float, st
     first, last = places[tuple(rng.choice(members))], places[tuple(rng.choice(members))]
     cells = int(np.ceil(5.0 / step)) + 1
     lattice = PlaceLattice(np.array([0.0, 0.0, 0.0, step]), np.array([cells] * 3))
-    assert are_apart(block, lattice, first, last, radius, 10**6)[0] == TOGETHER
+    assert are_apart(packed, lattice, first, last, radius, 10**6)[0] == TOGETHER
 
 
-def shell() -> tuple[object, PlaceLattice]:
+def shell() -> tuple[PackedSpace, PlaceLattice]:
     blocked = np.ones((7, 7, 7), bool)
     blocked[1:6, 1:6, 1:6] = False
     whole = np.zeros((31, 31, 31), bool)
     whole[12:19, 12:19, 12:19] = blocked
-    block = voxel_block(whole, 1.0, (0.0, 0.0, 0.0), FREE)
-    return block, PlaceLattice(np.array([0.5, 0.5, 0.5, 1.0]), np.array([31] * 3))
+    return packed_cubes(whole), PlaceLattice(np.array([0.5, 0.5, 0.5, 1.0]), np.array([31] * 3))
 
 
 def test_a_small_room_is_flooded_before_the_world_is() -> None:
-    block, lattice = shell()
+    packed, lattice = shell()
     outside, inside = np.full(3, 2.5), np.full(3, 15.5)
-    assert are_apart(block, lattice, outside, inside, 0.45, 1000) == (APART, 1)
-    assert are_apart(block, lattice, inside, outside, 0.45, 1000) == (APART, 0)
+    assert are_apart(packed, lattice, outside, inside, 0.45, 1000) == (APART, 1)
+    assert are_apart(packed, lattice, inside, outside, 0.45, 1000) == (APART, 0)
 
 
 def test_nothing_is_known_when_the_cells_are_spent() -> None:
-    block, lattice = shell()
-    assert are_apart(block, lattice, np.full(3, 2.5), np.full(3, 15.5), 0.45, 50)[0] == UNKNOWN
+    packed, lattice = shell()
+    assert are_apart(packed, lattice, np.full(3, 2.5), np.full(3, 15.5), 0.45, 50)[0] == UNKNOWN
 
 
 def test_nothing_is_known_of_places_outside_of_the_lattice() -> None:
-    block, lattice = shell()
-    assert are_apart(block, lattice, np.full(3, -9.0), np.full(3, 15.5), 0.45, 10**6)[0] == UNKNOWN
+    packed, lattice = shell()
+    assert are_apart(packed, lattice, np.full(3, -9.0), np.full(3, 15.5), 0.45, 10**6)[0] == UNKNOWN

@@ -59,12 +59,6 @@ def neighbours(lattice: PlaceLattice, i: int, j: int, k: int) -> int:
     return found
 
 
-@inlined
-def half_diagonal(step: float) -> float:
-    """How far a place in a cell may be from its middle, and a hair that makes up for rounding."""
-    return 0.8660254037844387 * step * (1.0 + 1e-9)
-
-
 def answers_route(question: Any, packed: type) -> Callable[[_Answer], _Answer]:
     """Let a function answer a question for one packed type; it may make arrays of its own.
 

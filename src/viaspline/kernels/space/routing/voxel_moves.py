@@ -14,8 +14,6 @@ from viaspline.kernels.space.routing.planes import add_plane
 from viaspline.kernels.space.routing.route_protocol import (
     PlaceLattice,
     answers_route,
-    could_hold,
-    half_diagonal,
     is_free,
     is_open,
     neighbours,
@@ -25,7 +23,6 @@ from viaspline.kernels.space.routing.route_protocol import (
 from viaspline.kernels.space.routing.voxel_block import VoxelBlock, is_blocked, is_inside
 from viaspline.kernels.space.routing.voxel_segment import (
     cube_on_segment,
-    cubes_distance,
     keeps_limits,
     segment_is_free,
 )
@@ -117,21 +114,6 @@ def _open_moves(
         if free & NEEDED[move] != NEEDED[move]:
             found &= ~(1 << move)
     return found
-
-
-@answers_route(could_hold, VoxelBlock)
-def _could_hold(
-    block: VoxelBlock, lattice: PlaceLattice, i: int, j: int, k: int, radius: float
-) -> bool:
-    if _is_own(block, lattice):
-        return not is_inside(block, i, j, k) or not is_blocked(block, i, j, k)
-    cell = block.frame[3]
-    step = lattice.frame[3] / cell
-    u = (lattice.frame[0] - block.frame[0]) / cell + i * step
-    v = (lattice.frame[1] - block.frame[1]) / cell + j * step
-    w = (lattice.frame[2] - block.frame[2]) / cell + k * step
-    needed = radius / cell - half_diagonal(step)
-    return needed <= 0.0 or cubes_distance(block, u, v, w, needed) >= needed
 
 
 @inlined

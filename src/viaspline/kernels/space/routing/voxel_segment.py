@@ -190,19 +190,3 @@ def segment_is_free(
             return False
         t = until
     return True
-
-
-@inner
-def cubes_distance(block: VoxelBlock, x: float, y: float, z: float, limit: float) -> float:
-    """Distance of a place from the nearest blocked cube, or the limit if none is nearer."""
-    counts = block.counts
-    best = limit * limit
-    for i in range(max(0, math.floor(x - limit)), min(counts[0], math.ceil(x + limit))):
-        for j in range(max(0, math.floor(y - limit)), min(counts[1], math.ceil(y + limit))):
-            for k in range(max(0, math.floor(z - limit)), min(counts[2], math.ceil(z + limit))):
-                if is_blocked(block, i, j, k):
-                    ex = _beyond(x - i)
-                    ey = _beyond(y - j)
-                    ez = _beyond(z - k)
-                    best = min(best, ex * ex + ey * ey + ez * ez)
-    return math.sqrt(best)
