@@ -213,7 +213,7 @@ def example_jobs() -> list[tuple[str, int, bool]]:
 
 def plan_text(plan: Any, name: str) -> str:
     """What is written of a plan, in the plane or in space."""
-    from viaspline.report.plan_json import plan_json
+    from viaspline.report.files.plan_json import plan_json
     from viaspline.report.space.spatial_json import spatial_plan_json
     from viaspline.space.spatial_plan import SpatialPlan
 
@@ -224,7 +224,7 @@ def plan_text(plan: Any, name: str) -> str:
 
 def run_text(run: Any, name: str) -> str:
     """What is written of a drive, in the plane or in space."""
-    from viaspline.report.run_json import run_json
+    from viaspline.report.files.run_json import run_json
     from viaspline.report.space.spatial_json import flight_json
     from viaspline.space.spatial_run import SpatialRun
 
@@ -234,8 +234,8 @@ def run_text(run: Any, name: str) -> str:
 def fleet_texts(fleet: Any, name: str, driven: bool) -> dict[str, str]:
     """The files of a fleet and of each of its robots."""
     import viaspline as vs
-    from viaspline.report.fleet_json import fleet_json
-    from viaspline.report.fleet_run_json import fleet_run_json
+    from viaspline.report.files.fleet_json import fleet_json
+    from viaspline.report.files.fleet_run_json import fleet_run_json
 
     plan = vs.plan_fleet(fleet)
     found = {"fleet.json": fleet_json(plan, name, {robot: robot for robot in plan.plans})}

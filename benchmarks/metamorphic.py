@@ -41,7 +41,7 @@ from trials import GAP
 from work_pool import done
 
 import viaspline as vs
-from viaspline.report import results
+from viaspline.report.files import results
 
 SAME = 0.005  # of time and length
 WORSE = 0.02

@@ -25,8 +25,8 @@ import viaspline as vs
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.saved.course_record import CourseRecord
 from viaspline.formats.fleet_yaml import write_fleet
-from viaspline.report.fleet_json import fleet_json
-from viaspline.report.fleet_results import folder_names, write_robots
+from viaspline.report.files.fleet_json import fleet_json
+from viaspline.report.files.fleet_results import folder_names, write_robots
 
 TICK_S = 0.01
 """From sample to sample."""

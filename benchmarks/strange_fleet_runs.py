@@ -92,8 +92,8 @@ def looked_at(data: dict[str, Any], file: Path, kind: str, seed: int, *, drives:
 
 def written(plan: Any) -> tuple[dict[str, Any], dict[str, Any], dict[str, str]]:
     """What is written of a plan: of the fleet, and each robot's plan and table, by name."""
-    from viaspline.report.fleet_json import fleet_json
-    from viaspline.report.fleet_results import folder_names, robot_contents
+    from viaspline.report.files.fleet_json import fleet_json
+    from viaspline.report.files.fleet_results import folder_names, robot_contents
 
     names = folder_names(one.name for one in plan.fleet.members)
     files = {name: robot_contents(one, name) for name, one in plan.plans.items()}
@@ -172,7 +172,7 @@ def remedy_faults(data: dict[str, Any], told: dict[str, Any]) -> Faults:
 def simulated_faults(data: dict[str, Any], robots: list[Robot], plan: Any, seed: int) -> Faults:
     """Contacts, deadlocks and limits of drives with delays."""
     import viaspline as vs
-    from viaspline.report.fleet_run_json import fleet_run_json
+    from viaspline.report.files.fleet_run_json import fleet_run_json
 
     moves = bool(plan.fleet.world.moving)
     for k in range(1 if moves else 2):

@@ -54,9 +54,9 @@ def run(job: Job) -> Found:
 def looked_at(asked: Asked, folder: Path, *, again: bool, drives: bool) -> Any:
     """Faults of a mission that is planned and driven, and the word for how it ended."""
     import viaspline as vs
-    from viaspline.report import results
-    from viaspline.report.csv_tables import run_csv
-    from viaspline.report.run_json import run_json
+    from viaspline.report.files import results
+    from viaspline.report.files.csv_tables import run_csv
+    from viaspline.report.files.run_json import run_json
 
     file = folder / "strange.yaml"
     begin = time.process_time()
@@ -121,7 +121,7 @@ def same_refusal(mission: Any, error: Exception) -> Faults:
 def saved_faults(plan: Any, contents: dict[str, Any], folder: Path) -> Faults:
     """A plan is read again as what it was."""
     import viaspline as vs
-    from viaspline.report import results
+    from viaspline.report.files import results
 
     for name, text in {**contents, **results.mission_contents(plan.mission, folder)}.items():
         (folder / name).write_text(text, encoding="utf-8")

@@ -17,9 +17,9 @@ from scipy.integrate import quad
 import viaspline as vs
 from viaspline.cli import cli
 from viaspline.compared_tensions import TRIED_TENSIONS
-from viaspline.report.advice_tables import advice_tables
 from viaspline.report.advice_words import advice_words
 from viaspline.report.tension_picture import tension_picture
+from viaspline.report.terminal.advice_tables import advice_tables
 
 VIAS = [[30, 5], [45, 30], [20, 45], [-10, 30]]
 SAME = 2e-6  # part of a time or a curvature by which two plans that are the same may differ

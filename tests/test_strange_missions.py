@@ -17,9 +17,9 @@ import numpy as np
 import pytest
 
 import viaspline as vs
-from viaspline.report.csv_tables import path_csv, run_csv
-from viaspline.report.plan_json import plan_json
-from viaspline.report.run_json import run_json
+from viaspline.report.files.csv_tables import path_csv, run_csv
+from viaspline.report.files.plan_json import plan_json
+from viaspline.report.files.run_json import run_json
 
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 MISSION: dict[str, Any] = {

@@ -16,9 +16,9 @@ def main() -> None:
     """Run the command line; ends the process with its exit code."""
     try:
         from viaspline.cli import cli
-        from viaspline.report.interrupts import install
-        from viaspline.report.standard_streams import make_fit
-        from viaspline.report.terminal_lines import writing_output
+        from viaspline.report.terminal.interrupts import install
+        from viaspline.report.terminal.standard_streams import make_fit
+        from viaspline.report.terminal.terminal_lines import writing_output
 
         make_fit()
         install()
@@ -32,7 +32,7 @@ def main() -> None:
             raise
         _end(int(end.code))
     except OutputError as error:  # of what stands in no command: help, the version
-        from viaspline.report.terminal_lines import say_error
+        from viaspline.report.terminal.terminal_lines import say_error
 
         say_error(str(error))
         sys.exit(2)

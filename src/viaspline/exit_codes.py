@@ -12,8 +12,8 @@ from typing import Any
 import click
 
 from viaspline.errors import GaveUpError, MissionError, NoPathError, ViasplineError
-from viaspline.report.interrupts import Terminated, remembered
-from viaspline.report.terminal_lines import gave_up, no_path, say_error, telling_warnings
+from viaspline.report.terminal.interrupts import Terminated, remembered
+from viaspline.report.terminal.terminal_lines import gave_up, no_path, say_error, telling_warnings
 
 DEFECT, WRONG, NO_PATH, NOT_REACHED, GAVE_UP = 1, 2, 3, 4, 5
 INTERRUPTED, TERMINATED = 130, 143

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Final, Literal
 from viaspline.kernels.kernel_cache import CACHE_FOLDER, SOURCES
 from viaspline.kernels.shipped_kernels import SHIPPED
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.report.interrupts import undone_at_the_end
+from viaspline.report.terminal.interrupts import undone_at_the_end
 
 if TYPE_CHECKING:
     from viaspline.mission.fleet.fleet import Fleet

@@ -184,7 +184,9 @@ def test_on_a_line_all_that_stay_are_served_just_where_their_order_stays(
 def test_how_far_others_stay_from_one_without_a_path_is_proven(
     away: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("viaspline.report.fleet_results.fleet_picture", lambda plan, name: b"")
+    monkeypatch.setattr(
+        "viaspline.report.files.fleet_results.fleet_picture", lambda plan, name: b""
+    )
     ring = [[8, away - 0.6], [12, away - 0.6], [12, away + 4], [8, away + 4]]
     walls = [
         {"capsule": {"from": one, "to": other, "radius": 0.02}}

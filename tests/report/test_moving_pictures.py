@@ -9,11 +9,11 @@ import pytest
 
 import viaspline as vs
 from viaspline.report.animation import frames
+from viaspline.report.files.plan_json import plan_json
+from viaspline.report.files.run_json import run_json
 from viaspline.report.moving_film import arrow_line
 from viaspline.report.moving_marks import trails
-from viaspline.report.plan_json import plan_json
 from viaspline.report.plan_picture import plan_picture
-from viaspline.report.run_json import run_json
 from viaspline.report.run_picture import run_picture
 from viaspline.report.space_time import SpaceTime
 from viaspline.world.moving_obstacles import MovingObstacles

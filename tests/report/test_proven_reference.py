@@ -7,12 +7,12 @@ import pytest
 from matplotlib.figure import Figure
 
 import viaspline as vs
-from viaspline.report.fleet_json import fleet_json
-from viaspline.report.fleet_run_json import fleet_run_json
+from viaspline.report.files.fleet_json import fleet_json
+from viaspline.report.files.fleet_run_json import fleet_run_json
+from viaspline.report.files.plan_json import plan_json
+from viaspline.report.files.run_json import run_json
 from viaspline.report.notebook.notebook_page import html_page, summary_text
-from viaspline.report.plan_json import plan_json
 from viaspline.report.proven_reference import PROVEN_PAGE, PROVEN_WORDS, folded_page
-from viaspline.report.run_json import run_json
 from viaspline.report.sheet import new_sheet
 from viaspline.report.space.spatial_json import flight_json, spatial_plan_json
 

@@ -10,12 +10,12 @@ import pytest
 
 from viaspline.mission.model import Mission
 from viaspline.planner import plan
-from viaspline.report.csv_tables import run_csv
-from viaspline.report.plan_json import plan_json
-from viaspline.report.run_json import run_json
+from viaspline.report.files.csv_tables import run_csv
+from viaspline.report.files.plan_json import plan_json
+from viaspline.report.files.run_json import run_json
 from viaspline.report.run_picture import run_picture
-from viaspline.report.run_tables import run_tables
-from viaspline.report.terminal_tables import console
+from viaspline.report.terminal.run_tables import run_tables
+from viaspline.report.terminal.terminal_tables import console
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 

@@ -14,7 +14,7 @@ from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.plan_drive import find_drive
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import WorkBudget
-from viaspline.report.plan_json import plan_json
+from viaspline.report.files.plan_json import plan_json
 from viaspline.spacetime import alternatives, timed_problem
 from viaspline.world.world import World
 

@@ -14,7 +14,7 @@ from viaspline.errors import GeometryError, OutputError
 from viaspline.handed_in import check_kind
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
-from viaspline.report.result_files import ResultFolder, replacing
+from viaspline.report.files.result_files import ResultFolder, replacing
 from viaspline.robot.simulation.driven_step import StepWatcher
 from viaspline.robot.simulator import STEP_S, longest_step
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from viaspline.commands.command_steps import load_asked
-from viaspline.report.terminal_lines import say
+from viaspline.report.terminal.terminal_lines import say
 
 
 @click.command()

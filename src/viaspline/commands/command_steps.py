@@ -11,16 +11,16 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from viaspline.report.interrupts import undone_at_the_end
-from viaspline.report.terminal_lines import say, say_error
+from viaspline.report.terminal.interrupts import undone_at_the_end
+from viaspline.report.terminal.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
     from viaspline.bags.bag_file import BagFile
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
     from viaspline.planner import Plan
-    from viaspline.report.progress_bar import ProgressBar
-    from viaspline.report.result_files import ResultFolder
+    from viaspline.report.files.result_files import ResultFolder
+    from viaspline.report.terminal.progress_bar import ProgressBar
     from viaspline.report.video_file import VideoFile
 
 PLAN_NAMES: Final = (
@@ -73,7 +73,7 @@ def placed_by_studio(asked: Mission | Fleet, path: Path) -> Mission | Fleet:
 @contextmanager
 def result_folder(path: Path, names: Iterable[str]) -> Iterator[ResultFolder]:
     """The folder of the results, tried before the work and not left empty by a failure."""
-    from viaspline.report.result_files import ResultFolder
+    from viaspline.report.files.result_files import ResultFolder
 
     folder = ResultFolder(path, names)
     old = folder.holds_earlier_results()
@@ -128,7 +128,7 @@ def progress_bar(
         asked: What is planned, if anything.
         drives: Whether it is driven as well.
     """
-    from viaspline.report.progress_bar import ProgressBar
+    from viaspline.report.terminal.progress_bar import ProgressBar
 
     watch = ProgressBar(quiet=quiet)
     with watch.stage("start", "starting"):

@@ -8,7 +8,7 @@ import click
 
 from viaspline.commands.common_options import QUIET
 from viaspline.commands.link_options import ADDRESSES, SYSTEM, WAIT, talking_to, telling
-from viaspline.report.terminal_lines import say
+from viaspline.report.terminal.terminal_lines import say
 
 
 @click.command()

@@ -16,7 +16,7 @@ from viaspline.commands.command_steps import (
 )
 from viaspline.commands.common_options import QUIET
 from viaspline.report.proven_reference import with_meaning
-from viaspline.report.terminal_lines import say
+from viaspline.report.terminal.terminal_lines import say
 
 if TYPE_CHECKING:
     from viaspline.exports.export_options import ExportOptions
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
     from viaspline.planner import Plan
-    from viaspline.report.progress_bar import ProgressBar
+    from viaspline.report.terminal.progress_bar import ProgressBar
     from viaspline.space.spatial_plan import SpatialPlan
 
 METRES = click.FloatRange(min=0.0, max=1e4)

@@ -12,7 +12,7 @@ import click
 
 from viaspline.commands.command_steps import progress_bar, result_folder, say_written
 from viaspline.commands.common_options import QUIET
-from viaspline.report.terminal_lines import say
+from viaspline.report.terminal.terminal_lines import say
 
 FIGURE_NAMES: Final = tuple(
     f"{name}.png" for name in ("fig2", "fig3", "fig5", "fig6", "fig7", "fig8", "curvature")

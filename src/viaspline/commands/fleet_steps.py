@@ -21,15 +21,15 @@ from viaspline.commands.command_steps import (
     say_written,
 )
 from viaspline.exit_codes import GAVE_UP, NO_PATH, NOT_REACHED
-from viaspline.report.terminal_lines import say, say_error
+from viaspline.report.terminal.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
     from viaspline.fleet.execution.fleet_run import FleetRun
     from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.fleet.laying.laying_workers import LayingWorkers
     from viaspline.mission.fleet.fleet import Fleet
-    from viaspline.report.progress_bar import ProgressBar
-    from viaspline.report.results import Contents
+    from viaspline.report.files.results import Contents
+    from viaspline.report.terminal.progress_bar import ProgressBar
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ def plan_fleet_file(
         quiet: Say nothing when all goes well.
     """
     from viaspline.report.earlier_robots import earlier_robots
-    from viaspline.report.fleet_results import FLEET_FILES, check_robot_folders
+    from viaspline.report.files.fleet_results import FLEET_FILES, check_robot_folders
 
     target = out or default_folder(file)
     with (
@@ -94,13 +94,13 @@ def plan_fleet_file(
         earlier = earlier_robots(target)
         planned = watched_fleet_plan(fleet, watch, improve, laid_by)
         with watch.stage("report", "writing"):
-            from viaspline.report.fleet_results import (
+            from viaspline.report.files.fleet_results import (
                 fleet_contents,
                 forget_earlier,
                 planned_fleet_contents,
                 write_robots,
             )
-            from viaspline.report.results import write_all
+            from viaspline.report.files.results import write_all
 
             folders = write_robots(planned, target, watch.fraction)
             contents = fleet_contents(planned, file.stem)
@@ -109,8 +109,8 @@ def plan_fleet_file(
         removed = forget_earlier(target, earlier, folders)
     if not quiet:
         from viaspline.report.fleet_summary import fleet_plan_remarks
-        from viaspline.report.fleet_tables import fleet_tables
-        from viaspline.report.terminal_tables import show
+        from viaspline.report.terminal.fleet_tables import fleet_tables
+        from viaspline.report.terminal.terminal_tables import show
 
         show(fleet_tables(planned, file.stem))
         say(*(f"note: {words}" for words in fleet_plan_remarks(fleet)))
@@ -136,7 +136,7 @@ def run_fleet_file(
         quiet: Say nothing when all goes well.
     """
     from viaspline.report.earlier_robots import earlier_robots
-    from viaspline.report.fleet_results import FLEET_RUN_FILES, check_robot_folders
+    from viaspline.report.files.fleet_results import FLEET_RUN_FILES, check_robot_folders
 
     target = out or default_folder(file)
     with (
@@ -152,8 +152,8 @@ def run_fleet_file(
 
             done = simulate_fleet(fleet, plan=planned, seed=seed)
         with watch.stage("report", "writing"):
-            from viaspline.report.fleet_results import forget_earlier, write_robots
-            from viaspline.report.results import write_all
+            from viaspline.report.files.fleet_results import forget_earlier, write_robots
+            from viaspline.report.files.results import write_all
 
             folders = write_robots(planned, target, watch.fraction)
             contents = _driven_contents(fleet, planned, done, target, file.stem, seed)
@@ -167,8 +167,8 @@ def run_fleet_file(
         removed = forget_earlier(target, earlier, folders)
     if not quiet:
         from viaspline.report.fleet_summary import fleet_plan_remarks
-        from viaspline.report.fleet_tables import fleet_run_table, fleet_tables
-        from viaspline.report.terminal_tables import show
+        from viaspline.report.terminal.fleet_tables import fleet_run_table, fleet_tables
+        from viaspline.report.terminal.terminal_tables import show
 
         show(fleet_tables(planned, file.stem), fleet_run_table(done, file.stem))
         say(*(f"note: {words}" for words in fleet_plan_remarks(fleet)))
@@ -182,7 +182,7 @@ def _driven_contents(
     fleet: Fleet, planned: FleetPlan, done: FleetRun, target: Path, name: str, seed: int
 ) -> Contents:
     """What is written of a fleet that was planned and driven, but for its robots' folders."""
-    from viaspline.report.fleet_results import (
+    from viaspline.report.files.fleet_results import (
         fleet_contents,
         fleet_run_contents,
         planned_fleet_contents,
@@ -197,7 +197,7 @@ def _driven_contents(
 
 def end_not_reached(done: FleetRun) -> None:
     """Say which robots came too near, or did not reach their goals; end with the code for that."""
-    from viaspline.report.fleet_tables import too_near_words
+    from viaspline.report.terminal.fleet_tables import too_near_words
 
     near = too_near_words(done.certificate)
     if near is not None:
@@ -273,7 +273,7 @@ def end_unserved(planned: FleetPlan) -> None:
     """Say which robots are not served, and end with the code for it; nothing if all are."""
     if planned.served:
         return
-    from viaspline.report.fleet_tables import unserved_lines
+    from viaspline.report.terminal.fleet_tables import unserved_lines
 
     say_error(*unserved_lines(planned))
     refused = any(one.outcome == "refused" for one in planned.not_served)

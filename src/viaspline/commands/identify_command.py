@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from viaspline.bounded_file import is_folder
-from viaspline.report.terminal_lines import say, say_error
+from viaspline.report.terminal.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
     from viaspline.identify.drive_log import DriveLog

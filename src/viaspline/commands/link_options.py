@@ -55,6 +55,6 @@ def talking_to(address: str) -> Iterator[Conversation]:
 
 def telling(quiet: bool) -> Callable[[str], Any]:
     """Who is told what goes on: the error stream, or nobody."""
-    from viaspline.report.terminal_lines import say_error
+    from viaspline.report.terminal.terminal_lines import say_error
 
     return (lambda words: None) if quiet else (lambda words: say_error(words, prefix=""))

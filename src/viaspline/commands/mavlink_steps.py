@@ -16,9 +16,9 @@ from viaspline.commands.command_steps import load_asked, progress_bar, watched_p
 from viaspline.commands.link_options import talking_to, telling
 from viaspline.errors import LinkError
 from viaspline.exit_codes import NOT_REACHED
-from viaspline.report.interrupts import undone_at_the_end
 from viaspline.report.proven_reference import with_meaning
-from viaspline.report.terminal_lines import say, say_error
+from viaspline.report.terminal.interrupts import undone_at_the_end
+from viaspline.report.terminal.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
     from viaspline.formats.local_frame import LocalFrame

@@ -24,7 +24,7 @@ from viaspline.commands.command_steps import (
     watched_plan,
 )
 from viaspline.exit_codes import NOT_REACHED
-from viaspline.report.terminal_lines import say_error
+from viaspline.report.terminal.terminal_lines import say_error
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
@@ -54,14 +54,14 @@ def plan_mission(asked: Mission, file: Path, out: Path | None, *, quiet: bool) -
     ):
         planned = watched_plan(asked, watch)
         with watch.stage("report", "drawing and writing"):
-            from viaspline.report import results
+            from viaspline.report.files import results
 
             contents = results.plan_contents(planned, file.stem)
             contents |= results.mission_contents(planned.mission, folder.path)
         files = results.write_all(folder, contents, watch.times)
     if not quiet:
-        from viaspline.report.plan_tables import plan_tables
-        from viaspline.report.terminal_tables import show
+        from viaspline.report.terminal.plan_tables import plan_tables
+        from viaspline.report.terminal.terminal_tables import show
 
         show(plan_tables(planned, file.stem))
         say_remarks(asked, planned)
@@ -106,7 +106,7 @@ def run_mission(
                     watch=step,
                 )  # fmt: skip
         with watch.stage("report", "drawing and writing"):
-            from viaspline.report import results
+            from viaspline.report.files import results
 
             contents = results.plan_contents(plan, file.stem)
             contents |= results.mission_contents(plan.mission, folder.path)
@@ -118,9 +118,9 @@ def run_mission(
                     film_run(done, file.stem, film, watch.fraction)
         files = results.write_all(folder, contents, watch.times, done)
     if not quiet:
-        from viaspline.report.plan_tables import plan_tables
-        from viaspline.report.run_tables import run_tables
-        from viaspline.report.terminal_tables import show
+        from viaspline.report.terminal.plan_tables import plan_tables
+        from viaspline.report.terminal.run_tables import run_tables
+        from viaspline.report.terminal.terminal_tables import show
 
         show(plan_tables(plan, file.stem), run_tables(done, file.stem))
         say_remarks(asked, plan)

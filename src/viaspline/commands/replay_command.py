@@ -12,7 +12,7 @@ from viaspline.commands.command_steps import progress_bar
 from viaspline.commands.common_options import QUIET
 from viaspline.errors import BagError
 from viaspline.exit_codes import NOT_REACHED
-from viaspline.report.terminal_lines import say, say_error
+from viaspline.report.terminal.terminal_lines import say, say_error
 
 
 @click.command()

@@ -16,8 +16,8 @@ import click
 
 from viaspline.commands.command_steps import load_asked, progress_bar, watched_plan
 from viaspline.exit_codes import NOT_REACHED
-from viaspline.report.interrupts import undone_at_the_end
-from viaspline.report.terminal_lines import say, say_error
+from viaspline.report.terminal.interrupts import undone_at_the_end
+from viaspline.report.terminal.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
     from viaspline.links.ros.ros_link import RosPlace

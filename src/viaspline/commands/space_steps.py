@@ -40,7 +40,7 @@ def plan_spatial_mission(asked: Mission, file: Path, out: Path | None, *, quiet:
 
             planned = plan_spatial(asked)
         with watch.stage("report", "drawing and writing"):
-            from viaspline.report import results
+            from viaspline.report.files import results
             from viaspline.report.space.spatial_results import spatial_plan_contents
 
             contents = spatial_plan_contents(planned, file.stem)
@@ -48,7 +48,7 @@ def plan_spatial_mission(asked: Mission, file: Path, out: Path | None, *, quiet:
         files = results.write_all(folder, contents, watch.times)
     if not quiet:
         from viaspline.report.space.spatial_tables import spatial_plan_tables
-        from viaspline.report.terminal_tables import show
+        from viaspline.report.terminal.terminal_tables import show
 
         show(spatial_plan_tables(planned, file.stem))
         say_written(files)
@@ -81,7 +81,7 @@ def run_spatial_mission(
 
             flown = fly(planned, seed=seed)
         with watch.stage("report", "drawing and writing"):
-            from viaspline.report import results
+            from viaspline.report.files import results
             from viaspline.report.space.spatial_results import (
                 spatial_plan_contents,
                 spatial_run_contents,
@@ -98,7 +98,7 @@ def run_spatial_mission(
         files = results.write_all(folder, contents, watch.times)
     if not quiet:
         from viaspline.report.space.spatial_tables import spatial_plan_tables, spatial_run_tables
-        from viaspline.report.terminal_tables import show
+        from viaspline.report.terminal.terminal_tables import show
 
         show(spatial_plan_tables(planned, file.stem), spatial_run_tables(flown, file.stem))
         say_written([*files, *([] if film is None else [film.path])])
@@ -106,7 +106,7 @@ def run_spatial_mission(
         import click
 
         from viaspline.exit_codes import NOT_REACHED
-        from viaspline.report.terminal_lines import say_error
+        from viaspline.report.terminal.terminal_lines import say_error
 
         say_error(f"the robot did not reach its goal: {flown.reason}")
         click.get_current_context().exit(NOT_REACHED)

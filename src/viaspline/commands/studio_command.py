@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from viaspline.report.terminal_lines import say
+from viaspline.report.terminal.terminal_lines import say
 
 
 @click.command()

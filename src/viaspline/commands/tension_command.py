@@ -55,8 +55,8 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
 
             file = folder.write("tension.png", tension_picture(advice, mission.stem))
     if not quiet:
-        from viaspline.report.advice_tables import advice_tables
-        from viaspline.report.terminal_tables import show
+        from viaspline.report.terminal.advice_tables import advice_tables
+        from viaspline.report.terminal.terminal_tables import show
 
         show(advice_tables(advice, mission.stem))
         say_written([file])

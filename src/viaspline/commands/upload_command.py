@@ -18,7 +18,7 @@ from viaspline.commands.link_options import (
     telling,
 )
 from viaspline.report.proven_reference import with_meaning
-from viaspline.report.terminal_lines import say
+from viaspline.report.terminal.terminal_lines import say
 
 if TYPE_CHECKING:
     from viaspline.formats.items import LatLon

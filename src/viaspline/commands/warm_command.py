@@ -16,12 +16,12 @@ import click
 from viaspline.commands.command_steps import load_asked
 from viaspline.commands.common_options import QUIET
 from viaspline.errors import OutputError
-from viaspline.report.terminal_lines import say
+from viaspline.report.terminal.terminal_lines import say
 
 if TYPE_CHECKING:
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
-    from viaspline.report.progress_bar import ProgressBar
+    from viaspline.report.terminal.progress_bar import ProgressBar
     from viaspline.warming.mission_kind import MissionKind
 
 
@@ -48,7 +48,7 @@ def warm(mission: Path | None, everything: bool, quiet: bool) -> None:
     if CACHE_FOLDER is None:
         remedy = "set VIASPLINE_CACHE_DIR to a folder that you can write"
         raise OutputError("<cache>", f"compiled kernels can be kept nowhere; {remedy}")
-    from viaspline.report.progress_bar import ProgressBar
+    from viaspline.report.terminal.progress_bar import ProgressBar
 
     watch, compiled = ProgressBar(quiet=quiet), _Compiled()
     with watch.stage("warm", "driving small missions"):

@@ -13,7 +13,7 @@ from viaspline.exports.tabled_path import rendered
 from viaspline.formats.items import LatLon
 from viaspline.handed_in import check_kind
 from viaspline.planner import Plan
-from viaspline.report.result_files import write
+from viaspline.report.files.result_files import write
 from viaspline.space.spatial_plan import SpatialPlan
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ def export_fleet(
         'round-a.csv'
     """
     from viaspline.fleet.fleet_plan import FleetPlan
-    from viaspline.report.fleet_results import folder_names
+    from viaspline.report.files.fleet_results import folder_names
 
     check_kind("plan", plan, FleetPlan, "give what viaspline.plan_fleet(fleet) returns")
     check_kind("path", path, str | Path, "give the file to write")

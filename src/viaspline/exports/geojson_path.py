@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 from viaspline.exports.path_format import Carried
 from viaspline.exports.path_table import PathTable
-from viaspline.report.json_text import dumps
+from viaspline.report.files.json_text import dumps
 from viaspline.report.proven_reference import PROVEN_KEY
 
 

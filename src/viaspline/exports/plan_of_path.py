@@ -13,7 +13,7 @@ from viaspline.exports.path_items import path_itinerary
 from viaspline.exports.path_table import PathTable
 from viaspline.formats.outgoing import itinerary_of
 from viaspline.formats.qgc_plan import plan_text
-from viaspline.report.json_text import plain
+from viaspline.report.files.json_text import plain
 
 
 class PlanOfPath:

@@ -3,7 +3,7 @@
 A robot that is gone, has another name or is no longer served would else keep a plan that nobody
 has proven apart from the new ones.
 
-Tested through ``report/test_fleet_results``.
+Tested through ``report/files/test_fleet_results``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A fleet in a few words; light enough for ``viaspline check``.
 
-Tested through ``report/test_fleet_results``.
+Tested through ``report/files/test_fleet_results``.
 """
 
 from __future__ import annotations

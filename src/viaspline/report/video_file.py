@@ -9,7 +9,7 @@ import shutil
 from pathlib import Path
 
 from viaspline.errors import OutputError
-from viaspline.report.result_files import ResultFolder
+from viaspline.report.files.result_files import ResultFolder
 
 VIDEO_SUFFIXES = (".gif", ".mp4")
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from viaspline.errors import OutputError
-from viaspline.report.result_files import replacing
+from viaspline.report.files.result_files import replacing
 from viaspline.report.video_file import VideoFile
 
 Frame = NDArray[np.uint8]  # (height, width, 3)

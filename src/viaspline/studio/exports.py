@@ -11,10 +11,10 @@ from viaspline.errors import ViasplineError
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.formats.items import LatLon
 from viaspline.planner import Plan
-from viaspline.report.csv_tables import path_csv, run_csv, spacing
-from viaspline.report.plan_json import plan_json
+from viaspline.report.files.csv_tables import path_csv, run_csv, spacing
+from viaspline.report.files.plan_json import plan_json
+from viaspline.report.files.run_json import run_json
 from viaspline.report.proven_reference import PROVEN_WORDS
-from viaspline.report.run_json import run_json
 from viaspline.report.space.spatial_results import flight_file, spatial_plan_contents
 from viaspline.robot.run import Run
 from viaspline.space.spatial_plan import SpatialPlan

@@ -9,7 +9,7 @@ from typing import Final
 
 from viaspline.errors import OutputError
 from viaspline.formats.format_registry import formats
-from viaspline.report.result_files import write
+from viaspline.report.files.result_files import write
 from viaspline.studio.refused_error import RefusedError
 from viaspline.studio.save_document import SAVED_SUFFIXES
 

@@ -13,8 +13,8 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import Plan
-from viaspline.report.json_text import plain
-from viaspline.report.moving_json import moving_certificate_data, timing_choices, waits_data
+from viaspline.report.files.json_text import plain
+from viaspline.report.files.moving_json import moving_certificate_data, timing_choices, waits_data
 from viaspline.report.space_time import SpaceTime, line_of
 from viaspline.studio.page_numbers import finite, rounded
 from viaspline.studio.plan_document import PlannedDocument

@@ -15,8 +15,8 @@ from viaspline.curve.path import Path
 from viaspline.maps.grid import Grid
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate
-from viaspline.report.drivability_json import drivability_data
-from viaspline.report.json_text import plain
+from viaspline.report.files.drivability_json import drivability_data
+from viaspline.report.files.json_text import plain
 from viaspline.studio.map_cache import grid_name
 from viaspline.studio.moving_messages import timing, tracks
 from viaspline.studio.page_numbers import finite, flat, rounded

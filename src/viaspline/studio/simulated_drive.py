@@ -15,7 +15,7 @@ import numpy as np
 
 from viaspline.mission.sensor_spec import Lidar
 from viaspline.planner import Plan
-from viaspline.report.json_text import plain
+from viaspline.report.files.json_text import plain
 from viaspline.robot.perception.belief import ON_MAP_M
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from viaspline.kernels.kernel_cache import CACHE_FOLDER
-from viaspline.report.interrupts import undone_at_the_end
+from viaspline.report.terminal.interrupts import undone_at_the_end
 from viaspline.warming.mission_kind import MissionKind
 
 Tell = Callable[[str], None]

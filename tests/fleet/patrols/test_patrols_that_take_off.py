@@ -164,7 +164,9 @@ def test_a_lap_is_laid_as_it_is_with_its_take_off() -> None:
 def test_a_saved_plan_of_such_patrols_is_loaded_and_equal(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, crossing: vs.FleetPlan
 ) -> None:
-    monkeypatch.setattr("viaspline.report.fleet_results.fleet_picture", lambda plan, name: b"")
+    monkeypatch.setattr(
+        "viaspline.report.files.fleet_results.fleet_picture", lambda plan, name: b""
+    )
     crossing.save(tmp_path)
     again = vs.load_fleet_plan(tmp_path)
     assert again == crossing
@@ -174,7 +176,9 @@ def test_one_that_turns_back_at_its_start_is_loaded_and_equal(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It stood too short for its turn there, and alone it was timed otherwise than planned."""
-    monkeypatch.setattr("viaspline.report.fleet_results.fleet_picture", lambda plan, name: b"")
+    monkeypatch.setattr(
+        "viaspline.report.files.fleet_results.fleet_picture", lambda plan, name: b""
+    )
     slow = {**DRONE, "max_vertical_accel_mps2": 0.7, "max_lateral_accel_mps2": 0.8}
     there = patrol([30.73, 14.72], [2.93, 16.67, 13.26], up=9.11)
     farther = patrol([35.2, 49.26], [23.02, 1.98, 19.5], up=12.0)

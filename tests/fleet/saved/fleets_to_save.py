@@ -16,7 +16,9 @@ Saved = dict[str, tuple[Path, vs.FleetPlan]]
 def unpainted() -> Iterator[None]:
     """Within the block plans are saved without pictures, which nobody looks at here."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("viaspline.report.fleet_results.fleet_picture", lambda plan, name: b"")
+        patched.setattr(
+            "viaspline.report.files.fleet_results.fleet_picture", lambda plan, name: b""
+        )
         yield
 
 

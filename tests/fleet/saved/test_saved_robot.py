@@ -55,7 +55,9 @@ def test_laps_with_a_limit_of_the_jerk_are_read_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A law with such a limit is a local optimum: four laps at once have another one than one."""
-    monkeypatch.setattr("viaspline.report.fleet_results.fleet_picture", lambda plan, name: b"")
+    monkeypatch.setattr(
+        "viaspline.report.files.fleet_results.fleet_picture", lambda plan, name: b""
+    )
     plan = vs.plan_fleet(vs.Fleet.model_validate(ROUND_AMONG_OTHERS))
     plan.save(tmp_path)
     assert vs.load_fleet_plan(tmp_path) == plan
@@ -65,7 +67,9 @@ def test_a_robot_that_is_given_steering_to_correct_with_is_read_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Its turns are wider than its steering allows: that is part of how its path was laid."""
-    monkeypatch.setattr("viaspline.report.fleet_results.fleet_picture", lambda plan, name: b"")
+    monkeypatch.setattr(
+        "viaspline.report.files.fleet_results.fleet_picture", lambda plan, name: b""
+    )
     steered = {"ackermann": {"wheelbase_m": 1, "max_steer_deg": 32}, "delay_s": 0.1, "lag_s": 0.1}
     footprint = [[-0.3, -0.35], [1.2, -0.35], [1.2, 0.35], [-0.3, 0.35]]
     robot = {

@@ -18,11 +18,11 @@ from viaspline.cli import cli
 from viaspline.errors import GeometryError
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.mission.fleet.fleet import FleetMember
+from viaspline.report.files.fleet_json import fleet_json
 from viaspline.report.fleet.fleet_colours import ROBOT_COLOURS
 from viaspline.report.fleet.fleet_picture import fleet_picture, motion_of
 from viaspline.report.fleet.fleet_run_picture import fleet_run_picture
 from viaspline.report.fleet.places_over_time import least_gap, least_gap_in_space
-from viaspline.report.fleet_json import fleet_json
 from viaspline.report.style import MOVING_FILL
 
 FLEET: dict[str, Any] = {

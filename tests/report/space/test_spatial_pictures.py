@@ -19,7 +19,7 @@ from viaspline.report.space.spatial_picture import band_of, drawn_page, scene_of
 from viaspline.report.space.spatial_results import spatial_plan_contents, spatial_run_contents
 from viaspline.report.space.spatial_scene import NamedSolid
 from viaspline.report.space.spatial_tables import spatial_plan_tables
-from viaspline.report.terminal_tables import console
+from viaspline.report.terminal.terminal_tables import console
 from viaspline.space.online.fly import fly
 from viaspline.space.plan_spatial import plan_spatial
 from viaspline.space.spatial_plan import SpatialPlan

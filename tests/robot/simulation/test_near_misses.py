@@ -13,8 +13,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from viaspline.mission.model import Mission
-from viaspline.report.run_json import run_json
-from viaspline.report.run_tables import shortfall_words
+from viaspline.report.files.run_json import run_json
+from viaspline.report.terminal.run_tables import shortfall_words
 from viaspline.robot.run import Shortfall
 from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.near_misses import near_misses

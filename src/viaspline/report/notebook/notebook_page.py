@@ -7,7 +7,7 @@ from html import escape
 
 from viaspline.presentable.upper_doors import opened, opened_for
 from viaspline.report.proven_reference import PROVEN_WORDS, folded_page, says_proven
-from viaspline.report.terminal_tables import Rows
+from viaspline.report.terminal.terminal_tables import Rows
 
 BESIDE = "vertical-align:top;padding:1px 1.2em 1px 0;text-align:left;white-space:nowrap"
 WORDS = "vertical-align:top;padding:1px 0;text-align:left;white-space:normal"

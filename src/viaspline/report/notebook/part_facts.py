@@ -15,7 +15,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.maps.grid import Grid
 from viaspline.maps.terrain import Terrain
 from viaspline.report.summary import counted
-from viaspline.report.terminal_tables import Rows
+from viaspline.report.terminal.terminal_tables import Rows
 from viaspline.report.units import curvature, metres, place, seconds
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.space.spatial_world import SpatialWorld

@@ -17,15 +17,15 @@ from viaspline.mission.fleet.fleet import Fleet
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.presentable.upper_doors import opened, opened_for
-from viaspline.report.fleet_results import (
+from viaspline.report.files.fleet_results import (
     check_robot_folders,
     fleet_contents,
     planned_fleet_contents,
     write_robots,
 )
-from viaspline.report.fleet_run_json import fleet_run_json
-from viaspline.report.result_files import ResultFolder
-from viaspline.report.results import (
+from viaspline.report.files.fleet_run_json import fleet_run_json
+from viaspline.report.files.result_files import ResultFolder
+from viaspline.report.files.results import (
     MISSION_FILE,
     Contents,
     mission_contents,

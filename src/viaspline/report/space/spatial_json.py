@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from viaspline.report.csv_tables import spacing, table_csv
-from viaspline.report.drivability_json import drivability_data
-from viaspline.report.json_text import dumps
-from viaspline.report.moving_json import encounters_data, moving_certificate_data, waits_list
-from viaspline.report.plan_json import (
+from viaspline.report.files.csv_tables import spacing, table_csv
+from viaspline.report.files.drivability_json import drivability_data
+from viaspline.report.files.json_text import dumps
+from viaspline.report.files.moving_json import encounters_data, moving_certificate_data, waits_list
+from viaspline.report.files.plan_json import (
     certificate_data,
     law_data,
     ledger_entry_data,

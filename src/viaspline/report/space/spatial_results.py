@@ -5,7 +5,7 @@ Tested through ``report/space/test_spatial_pictures``.
 
 from __future__ import annotations
 
-from viaspline.report.results import Contents
+from viaspline.report.files.results import Contents
 from viaspline.report.space.flight_picture import flight_picture
 from viaspline.report.space.spatial_json import (
     flight_csv,

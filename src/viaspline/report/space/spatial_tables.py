@@ -9,10 +9,10 @@ import math
 
 from rich.console import Group, RenderableType
 
-from viaspline.report.plan_tables import drivability_rows, ledger_table
-from viaspline.report.run_tables import encounter_rows
 from viaspline.report.space.heights_json import heights_rows
-from viaspline.report.terminal_tables import MAX_LIST_LINES, Rows, facts_table
+from viaspline.report.terminal.plan_tables import drivability_rows, ledger_table
+from viaspline.report.terminal.run_tables import encounter_rows
+from viaspline.report.terminal.terminal_tables import MAX_LIST_LINES, Rows, facts_table
 from viaspline.report.units import asked_words, down, metres, place, seconds
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_run import SpatialRun

@@ -122,8 +122,8 @@ def _turns(rows: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
 def fleet_file(plan: FleetPlan, kind: str, name: str) -> bytes:
     """One of the files of a fleet's plan: ``fleet.json`` or ``fleet.png``."""
     if kind == "fleet.json":
-        from viaspline.report.fleet_json import fleet_json
-        from viaspline.report.fleet_results import folder_names
+        from viaspline.report.files.fleet_json import fleet_json
+        from viaspline.report.files.fleet_results import folder_names
 
         return fleet_json(plan, name, folder_names(one.name for one in plan.fleet.members)).encode()
     from viaspline.report.fleet.fleet_picture import fleet_picture
@@ -134,7 +134,7 @@ def fleet_file(plan: FleetPlan, kind: str, name: str) -> bytes:
 def fleet_run_file(simulated: SimulatedFleet, kind: str, name: str, seed: int) -> bytes:
     """One of the files of a fleet's drive: ``run.json`` or ``run.png``."""
     if kind == "run.json":
-        from viaspline.report.fleet_run_json import fleet_run_json
+        from viaspline.report.files.fleet_run_json import fleet_run_json
 
         return fleet_run_json(simulated.run, name, seed=seed).encode()
     from viaspline.report.fleet.fleet_run_picture import fleet_run_picture

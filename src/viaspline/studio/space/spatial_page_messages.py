@@ -12,8 +12,8 @@ from typing import Any, Final
 import numpy as np
 
 from viaspline.planning.problem.ledger import Candidate
-from viaspline.report.drivability_json import drivability_data
-from viaspline.report.json_text import plain
+from viaspline.report.files.drivability_json import drivability_data
+from viaspline.report.files.json_text import plain
 from viaspline.report.space.heights_json import heights_rows
 from viaspline.space.route_law import LANDING, TAKE_OFF
 from viaspline.space.spatial_plan import SpatialPlan

@@ -11,8 +11,8 @@ from rich.console import Console
 
 import viaspline as vs
 from viaspline.fleet.execution.fleet_run import FleetRun
-from viaspline.report.fleet_run_json import fleet_run_json
-from viaspline.report.fleet_tables import fleet_run_table, too_near_words
+from viaspline.report.files.fleet_run_json import fleet_run_json
+from viaspline.report.terminal.fleet_tables import fleet_run_table, too_near_words
 
 FLEET = {
     "separation_m": 1,

@@ -8,7 +8,7 @@ from rich.table import Table
 
 from viaspline.report.proven_reference import PROVEN_WORDS, says_proven
 from viaspline.report.style import without_folder
-from viaspline.report.terminal_lines import writing_output
+from viaspline.report.terminal.terminal_lines import writing_output
 
 Rows = list[tuple[str, str]]  # names, and what they are
 MAX_LIST_LINES = 12  # of a long list, before the rest is only counted

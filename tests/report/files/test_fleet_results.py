@@ -19,8 +19,8 @@ from viaspline.errors import OutputError
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.not_served import NotServed
 from viaspline.report.earlier_robots import earlier_robots, forget_robots
-from viaspline.report.fleet_json import fleet_json
-from viaspline.report.fleet_results import (
+from viaspline.report.files.fleet_json import fleet_json
+from viaspline.report.files.fleet_results import (
     ROBOT_FILES,
     check_robot_folders,
     fleet_contents,
@@ -29,7 +29,7 @@ from viaspline.report.fleet_results import (
     write_robots,
 )
 from viaspline.report.fleet_summary import fleet_plan_remarks, fleet_remarks, fleet_summary
-from viaspline.report.fleet_tables import fleet_tables, unserved_lines
+from viaspline.report.terminal.fleet_tables import fleet_tables, unserved_lines
 
 CROSSING: dict[str, Any] = {
     "separation_m": 1,

@@ -1,6 +1,6 @@
 """``fleet.json``: who is served, what is proven, who passes before whom.
 
-Tested through ``report/test_fleet_results``.
+Tested through ``report/files/test_fleet_results``.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Any, Final
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.mission.fleet.fleet import FleetMember
-from viaspline.report.json_text import dumps
+from viaspline.report.files.json_text import dumps
 from viaspline.report.proven_reference import PROVEN_KEY
 
 FRAME: Final = "ENU: x east, y north; headings anticlockwise from x"

@@ -1,13 +1,13 @@
 """``run.json`` of a fleet: when each robot arrived, what held it up, how near any two came.
 
-Tested through ``report/test_fleet_run_json``.
+Tested through ``report/files/test_fleet_run_json``.
 """
 
 from __future__ import annotations
 
 from viaspline.fleet.execution.fleet_run import FleetRun
-from viaspline.report.fleet_json import certificate_of_fleet
-from viaspline.report.json_text import dumps
+from viaspline.report.files.fleet_json import certificate_of_fleet
+from viaspline.report.files.json_text import dumps
 from viaspline.report.proven_reference import PROVEN_KEY
 
 

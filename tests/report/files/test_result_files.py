@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from viaspline.errors import OutputError
-from viaspline.report.result_files import ResultFolder, replacing, write
+from viaspline.report.files.result_files import ResultFolder, replacing, write
 
 
 def test_a_file_is_replaced_whole(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 """How a path drives, as ``plan.json`` and the studio have it.
 
-Tested through ``report/test_plan_json``.
+Tested through ``report/files/test_plan_json``.
 """
 
 from __future__ import annotations

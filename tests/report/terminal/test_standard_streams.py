@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-MISSION = Path(__file__).parents[2] / "examples" / "fig7-obstacles.yaml"
+MISSION = Path(__file__).parents[3] / "examples" / "fig7-obstacles.yaml"
 
 pytestmark = pytest.mark.skipif(not Path("/dev/full").exists(), reason="has no /dev/full")
 

@@ -9,9 +9,9 @@ import pytest
 
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
-from viaspline.report.csv_tables import path_csv, run_csv, spacing
-from viaspline.report.plan_json import plan_json
-from viaspline.report.run_json import changed_spans, run_json, timing_json
+from viaspline.report.files.csv_tables import path_csv, run_csv, spacing
+from viaspline.report.files.plan_json import plan_json
+from viaspline.report.files.run_json import changed_spans, run_json, timing_json
 from viaspline.robot.run import Run
 
 

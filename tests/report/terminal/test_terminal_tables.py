@@ -11,9 +11,9 @@ from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
-from viaspline.report.plan_tables import ledger_table, plan_tables
-from viaspline.report.run_tables import run_tables
 from viaspline.report.summary import spline_words, summary, tension
+from viaspline.report.terminal.plan_tables import ledger_table, plan_tables
+from viaspline.report.terminal.run_tables import run_tables
 from viaspline.report.units import JUST_TOUCHING_M, down
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate

@@ -1,6 +1,6 @@
 """Tables of a plan for the terminal: its path in figures, and its ledger.
 
-Tested through ``report/test_terminal_tables``.
+Tested through ``report/terminal/test_terminal_tables``.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.report.summary import map_words
-from viaspline.report.terminal_tables import MAX_LIST_LINES, Rows, facts_table, few_names
+from viaspline.report.terminal.terminal_tables import MAX_LIST_LINES, Rows, facts_table, few_names
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
 
 LEAST_ROOM_M = 0.005  # by which two ways on one side are told apart

@@ -11,9 +11,9 @@ from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
-from viaspline.report.drivability_json import drivability_data
-from viaspline.report.json_text import dumps
-from viaspline.report.moving_json import moving_certificate_data, timing_choices, waits_data
+from viaspline.report.files.drivability_json import drivability_data
+from viaspline.report.files.json_text import dumps
+from viaspline.report.files.moving_json import moving_certificate_data, timing_choices, waits_data
 from viaspline.report.proven_reference import PROVEN_KEY
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.report.summary import tension

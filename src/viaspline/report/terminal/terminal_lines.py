@@ -20,7 +20,7 @@ from viaspline.errors import (
     OutputError,
     PlanningError,
 )
-from viaspline.report.standard_streams import discard
+from viaspline.report.terminal.standard_streams import discard
 
 
 def say(*lines: str) -> None:

@@ -1,6 +1,6 @@
 """``run.json``: what was driven, every event and every re-plan; ``timing.json``: the wall clock.
 
-Tested through ``report/test_plan_json``.
+Tested through ``report/files/test_plan_json``.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.machine.excess import Excess
-from viaspline.report.json_text import dumps
-from viaspline.report.moving_json import encounters_data
-from viaspline.report.plan_json import mission_summary, path_data
+from viaspline.report.files.json_text import dumps
+from viaspline.report.files.moving_json import encounters_data
+from viaspline.report.files.plan_json import mission_summary, path_data
 from viaspline.report.proven_reference import PROVEN_KEY
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.robot.run import Replan, Run, Shortfall

@@ -19,12 +19,12 @@ from viaspline.formats.fleet_yaml import fleet_text
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.report.earlier_robots import forget_robots
+from viaspline.report.files.fleet_json import fleet_json
+from viaspline.report.files.fleet_run_json import fleet_run_json
+from viaspline.report.files.result_files import ResultFolder
+from viaspline.report.files.results import Contents, path_contents
 from viaspline.report.fleet.fleet_picture import fleet_picture
 from viaspline.report.fleet.fleet_run_picture import fleet_run_picture
-from viaspline.report.fleet_json import fleet_json
-from viaspline.report.fleet_run_json import fleet_run_json
-from viaspline.report.result_files import ResultFolder
-from viaspline.report.results import Contents, path_contents
 from viaspline.report.space.spatial_results import spatial_path_contents
 from viaspline.saved_plans.load_plan import FLEET_NAME
 from viaspline.space.spatial_plan import SpatialPlan

@@ -1,6 +1,6 @@
 """Everything that a plan or a run leaves in its folder.
 
-Tested through ``report/test_result_files``.
+Tested through ``report/files/test_result_files``.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from pathlib import Path
 from viaspline.formats.mission_yaml import yaml_text
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
-from viaspline.report.csv_tables import path_csv, run_csv, spacing
-from viaspline.report.plan_json import plan_json
+from viaspline.report.files.csv_tables import path_csv, run_csv, spacing
+from viaspline.report.files.plan_json import plan_json
+from viaspline.report.files.result_files import ResultFolder
+from viaspline.report.files.run_json import run_json, timing_json
 from viaspline.report.plan_picture import plan_picture
-from viaspline.report.result_files import ResultFolder
-from viaspline.report.run_json import run_json, timing_json
 from viaspline.report.run_picture import run_picture
 from viaspline.robot.run import Run
 

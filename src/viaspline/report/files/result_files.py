@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from viaspline.errors import OutputError
-from viaspline.report.interrupts import undone_at_the_end
+from viaspline.report.terminal.interrupts import undone_at_the_end
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from threading import RLock, Timer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from viaspline.report.interrupts import come_through
+from viaspline.report.terminal.interrupts import come_through
 
 SILENT_S = 1.0  # [s]
 

@@ -7,7 +7,7 @@ import pytest
 
 CODE = """
 import os, signal, sys
-from viaspline.report import interrupts
+from viaspline.report.terminal import interrupts
 interrupts.install()
 try:
     os.kill(os.getpid(), signal.{name})
@@ -34,7 +34,7 @@ def test_a_signal_that_was_swallowed_comes_through_later(name: str, raised: str)
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_a_signal_in_a_callback_that_cannot_raise_is_not_shown_as_a_traceback() -> None:
     code = (
-        "import ctypes, os, signal, sys; from viaspline.report import interrupts\n"
+        "import ctypes, os, signal, sys; from viaspline.report.terminal import interrupts\n"
         "interrupts.install()\n"
         "back = ctypes.CFUNCTYPE(None)(lambda: os.kill(os.getpid(), signal.SIGINT))\n"
         "back()\n"
@@ -50,7 +50,7 @@ def test_a_signal_in_a_callback_that_cannot_raise_is_not_shown_as_a_traceback() 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_what_a_signal_left_half_made_does_not_complain_when_it_is_deleted() -> None:
     code = (
-        "import os, signal; from viaspline.report import interrupts\n"
+        "import os, signal; from viaspline.report.terminal import interrupts\n"
         "class Half:\n"
         "    def __init__(self):\n"
         "        os.kill(os.getpid(), signal.SIGINT)\n"
@@ -72,7 +72,7 @@ def test_work_that_lets_no_handler_run_is_tidied_and_ended(name: str, code: int)
     # A call into C that goes on for ever without the interpreter's lock, as a long kernel does.
     source = (
         "import ctypes, os, signal, threading\n"
-        "from viaspline.report import interrupts\n"
+        "from viaspline.report.terminal import interrupts\n"
         "interrupts.GRACE_S = 0.1\n"
         "interrupts.install()\n"
         "libc, lock = ctypes.CDLL(None), ctypes.create_string_buffer(64)\n"

@@ -1,6 +1,6 @@
 """The plan of a fleet in figures, for the terminal.
 
-Tested through ``report/test_fleet_results``.
+Tested through ``report/files/test_fleet_results``.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.not_served import NotServed
 from viaspline.report.proven_reference import with_meaning
-from viaspline.report.terminal_tables import Rows, facts_table
+from viaspline.report.terminal.terminal_tables import Rows, facts_table
 from viaspline.report.units import asked_words, down, metres, place, seconds
 
 MAX_WAITS_TOLD: Final = 8

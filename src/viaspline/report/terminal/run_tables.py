@@ -1,6 +1,6 @@
 """Tables of a run for the terminal: what was driven in figures, and the re-plans.
 
-Tested through ``report/test_terminal_tables``.
+Tested through ``report/terminal/test_terminal_tables``.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from rich import box
 from rich.console import Group, RenderableType
 from rich.table import Table
 
-from viaspline.report.terminal_tables import MAX_LIST_LINES, Rows, facts_table, few_names
+from viaspline.report.terminal.terminal_tables import MAX_LIST_LINES, Rows, facts_table, few_names
 from viaspline.report.units import asked_words, down, metres, place, seconds
 from viaspline.robot.run import MODES, Run, Shortfall
 from viaspline.tracks.encountered import Encounters

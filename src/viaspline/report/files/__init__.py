@@ -1,0 +1,1 @@
+"""What is written: results as a whole, JSON and tables."""
