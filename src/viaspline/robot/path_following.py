@@ -23,6 +23,7 @@ from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigation.track_path import ON_PATH_M
 from viaspline.robot.state import Command, RobotState
+from viaspline.robot.watching.turned_first import AT_REST_MPS, spot_rate_of
 
 MIN_CONVERGENCE_M, CONVERGENCE_TIME_S = 1.0, 1.0
 """A robot beside its path comes back to it over at least this distance [m], and over what it drives
@@ -72,8 +73,10 @@ def command_for(
     else:
         if beside:
             curvature = _led_back(curvature, measured, position, heading)
-        wanted = _turning_to(heading, measured, robot) if stopped else speed * curvature
-        motion = _Motion((speed, 0.0), _yaw_rate(robot, wanted), {})
+        motion = _Motion((speed, 0.0), _yaw_rate(robot, speed * curvature), {})
+        if speed <= AT_REST_MPS:
+            rate = _turning_to(heading_onward(path, distance), measured, robot)
+            motion = motion._replace(yaw_rate=rate)
     return Command(
         speed=speed,
         acceleration=acceleration,
@@ -98,15 +101,11 @@ def _driven(controller: Controller, drive: Drive | None) -> _Motion:
 
 
 def _turning_to(heading: float, state: RobotState, robot: RobotSpec) -> float:
-    """The yaw rate that a robot without a drive wants where it stands [rad/s].
-
-    It is 0 if it isn't said how fast it may turn: such a robot turns in no time, and its turns are
-    no part of its time law.
-    """
-    error = math.remainder(heading - state.heading, math.tau)
-    if robot.max_yaw_rate_degps is None or abs(error) <= HEADING_DEADBAND_RAD:
+    """The yaw rate of a robot without a drive where it stands [rad/s]."""
+    error, most = math.remainder(heading - state.heading, math.tau), spot_rate_of(robot)
+    if abs(error) <= HEADING_DEADBAND_RAD:
         return 0.0
-    return SPOT_GAIN * error
+    return min(max(SPOT_GAIN * error, -most), most)
 
 
 def _yaw_rate(robot: RobotSpec, wanted: float) -> float:

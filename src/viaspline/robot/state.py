@@ -56,8 +56,9 @@ class Command(ComparedByValue):
         acceleration: By which that speed changes from now on [m/s²].
         curvature: Of the arc to drive, left is positive [1/m]; it leads back to the path if the
             measured state is off it.
-        yaw_rate: Of the body [rad/s]. Where the robot is to turn on the spot and has no drive, as
-            fast as ``max_yaw_rate_degps`` allows, or 0 if that isn't said.
+        yaw_rate: Of the body [rad/s]. Where the robot stands and looks another way than it is to
+            go, it turns on the spot first; without a drive as fast as ``max_yaw_rate_degps``
+            allows, or 1 rad/s if that isn't said, and it sets off when it has turned.
         position: The path's point that belongs to the robot's progress [m], shape (d,).
         heading: The heading that the body should have there [rad].
         distance: The progress along all that is driven [m].

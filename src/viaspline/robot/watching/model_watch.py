@@ -23,6 +23,7 @@ from viaspline.robot.watching.true_place import (
     is_there,
     true_place,
 )
+from viaspline.robot.watching.turned_first import turned_first
 from viaspline.robot.watching.watch import Watch
 
 LEAST_SPEED_MPS = 0.1
@@ -72,6 +73,9 @@ def watched_motion(
     """
     last = before.measured
     seconds = 0.0 if last is None else max(time - before.time, 0.0)
+    watch, turns = turned_first(task, before, watch, schedule, measured, time)
+    if turns > 0.0:
+        schedule = replace(schedule, trajectory=schedule.trajectory.delayed(turns))
     should = float(schedule.trajectory.distance_at(time))
     was_at = should if last is None else before.place - schedule.driven
     jump, now = None, watch.measured
@@ -86,7 +90,7 @@ def watched_motion(
     if place == TruePlace(should, 0.0, 0.0):  # it does as it was told, however long ago that was
         meant = before.meant + max(total - before.place, 0.0)
         watch = replace(watch, meant=meant, place=total, off=0.0)
-        return WatchedMotion(watch, schedule, place, 0.0, last is None, ())
+        return WatchedMotion(watch, schedule, place, turns, last is None, ())
     speed = meant_speed(task, before, time, seconds)
     meant = before.meant + speed * seconds
     watch = replace(watch, speed=speed, meant=meant, place=total, off=place.off)
@@ -96,8 +100,8 @@ def watched_motion(
     if is_held_at_turn(schedule, place, should):
         watch = replace(watch, trail=())
     watch, slips = slipping(task, watch, measured.position)
-    waited = 0.0
-    if task.model is None and last is not None and schedule.giving_up is None:
+    waited = turns
+    if turns == 0.0 and task.model is None and last is not None and schedule.giving_up is None:
         waited = waits_for(watch, schedule.driven + progress.distance, seconds)
         if waited > 0.0:
             schedule = replace(schedule, trajectory=schedule.trajectory.delayed(waited))
