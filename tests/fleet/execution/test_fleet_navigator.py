@@ -270,6 +270,33 @@ def test_carts_that_obey_stay_apart_and_arrive_however_messages_are_lost_or_late
     assert nav.reached
 
 
+@given(seed=st.integers(0, 10_000), long=st.integers(50, 400))
+@example(seed=10, long=200)  # two of them waited for each other for ever
+@settings(max_examples=4, deadline=None)
+def test_carts_that_never_say_what_they_take_themselves_to_be_let_arrive(
+    seed: int, long: int
+) -> None:
+    """As somebody has it who reports a place and a speed alone, and obeys; each halts once."""
+    nav = FleetNavigator.of(driven_on(timed_lines(seed, 4)))
+    carts, random = carts_of(nav), np.random.default_rng(seed)
+    halts = {cart.name: int(random.integers(0, 200)) for cart in carts}
+    for tick in range(4000):
+        reports = [replace(cart.report(0.1 * tick), holds=None, heard=None) for cart in carts]
+        commands, nav = nav.step(reports, 0.1 * tick)
+        for cart in carts:
+            command = commands[cart.name]
+            if cart.place + cart.speed**2 / 2 <= command.granted:
+                cart.holds = command.granted  # less than it had, too
+            if 0 <= tick - halts[cart.name] < long:
+                cart.place = min(cart.place + 0.5 * cart.speed**2, cart.holds)
+                cart.speed = 0.0
+            else:
+                cart.drive(command)
+        if nav.reached:
+            break
+    assert nav.reached
+
+
 def all_can_arrive(nav: FleetNavigator) -> bool:
     """By brute force: robots drive on in turns, as far as those before them let them."""
     orders, packed = nav._state.orders.packed, nav._state.packed

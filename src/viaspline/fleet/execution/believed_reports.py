@@ -57,10 +57,24 @@ def believed(
         state.places[robot] = min(max(report.distance, 0.0), length)
         known.progress[robot] = max(known.progress[robot], place)
         robots.append(robot)
-        says = report.holds is not None and report.heard is not None
-        holds, heard = (report.holds, report.heard) if says else (0.0, -math.inf)
-        rows.append((report.time, place, holds, heard))
+        rows.append((report.time, place, *_answer(report, state, robot)))
     return np.array(robots, np.int64), np.array(rows, float).reshape(-1, 4), events
+
+
+def _answer(report: ProgressReport, state: FleetProgressState, robot: int) -> tuple[float, float]:
+    """How far a robot takes itself to be let, and of when the last command is that it has heard.
+
+    One that doesn't say that isn't asked to let another pass first: it might obey, and nobody would
+    know, so that both would wait for ever.
+    """
+    packed = state.packed
+    if report.holds is not None and report.heard is not None:
+        if math.isinf(packed.recalled_at[robot]):
+            packed.recalled_at[robot] = state.time
+        return report.holds, report.heard
+    packed.recall[robot], packed.recall_place[robot] = -1, math.inf
+    packed.recalled_at[robot] = math.inf
+    return 0.0, -math.inf
 
 
 def _counted(report: ProgressReport, known: KnownFleet, driven: Floats) -> ProgressReport:

@@ -24,7 +24,7 @@ class ProgressReport:
         speed: How fast it was then [m/s].
         arrived: Whether it stands at its goal; who leaves the world there has left it.
         holds: How far it takes itself to be let go [m]: the last grant that it has taken up. Only
-            if it says so can a grant be taken back, for another robot to pass first.
+            who says this and ``heard`` is asked to give a grant back, for another to pass first.
         heard: The time of the newest command that it has heard [s].
         path: Along which of its paths that is: the number in the newest command that it has heard.
 

@@ -161,7 +161,7 @@ def consider_swaps(
         if dispatch.promised[leader] <= orders.place[entry]:
             swap(orders, dispatch, crossing, leader)
             swapped += 1
-        else:
+        elif dispatch.recalled_at[leader] < np.inf:
             dispatch.recall[leader] = crossing
             dispatch.recall_place[leader] = orders.place[entry]
             dispatch.recalled_at[leader] = now

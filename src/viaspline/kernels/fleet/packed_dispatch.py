@@ -21,7 +21,8 @@ class PackedDispatch(NamedTuple):
         recall: The crossing that a robot is to let another pass first, if it still can; -1: none,
             (n,).
         recall_place: Before which it is to stay for that [m]; infinite: none, (n,).
-        recalled_at: Since when it is asked to, or to stop where ``halt`` is [s], (n,).
+        recalled_at: Since when it is asked to, or to stop where ``halt`` is [s]; infinite: it isn't
+            asked to, for it doesn't say how far it takes itself to be let, (n,).
         begin: When each robot would have set out to be where it is without any waits [s], (n,).
         moved_at: When it was last seen to get on, or held back [s], (n,).
         fixed: Whether a robot never gets on any more, (n,).
