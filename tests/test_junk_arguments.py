@@ -28,8 +28,8 @@ TO_NOWHERE = "no such folder/x.plan"
 
 JUNK: list[Any] = [
     None, "x", b"x", float("nan"), 10**400, -1, [], {}, [[1]], [["a", "b"]], [None], object(),
-    [[0, 0], [float("nan"), 1]], np.zeros((0, 2)), np.zeros((2, 2, 2)), np.array(["a"]), print,
-    "x" * 5000, "\0",
+    np.array([1, 2]), [[0, 0], [float("nan"), 1]], np.zeros((0, 2)), np.zeros((2, 2, 2)),
+    np.array(["a"]), print, "x" * 5000, "\0",
 ]  # fmt: skip
 
 
@@ -112,6 +112,10 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "Run animate": lambda junk: vs.simulate(MISSION, plan=MADE.plan).animate(MADE.axes, pace=junk),
     "CardinalSpline": vs.CardinalSpline,
     "CardinalSpline tension": lambda junk: vs.CardinalSpline([[0, 0], [1, 0]], tension=junk),
+    "World body_distance": lambda junk: MADE.world.body_distance(
+        (0, 0), junk, [(0, 0), (1, 0), (0, 1)]
+    ),
+    "CardinalSpline closed": lambda junk: vs.CardinalSpline([[0, 0], [1, 0]], closed=junk),
     "CardinalSpline knots": lambda junk: vs.CardinalSpline([[0, 0], [1, 0]], knots=junk),
     "PiecewiseCubic": vs.PiecewiseCubic,
     "Path": lambda junk: vs.Path(junk, vias=[]),
@@ -156,6 +160,9 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "RobotState speed": lambda junk: MADE.navigator.step(vs.RobotState((0, 0), 0.0, junk), [], 0.0),
     "RobotState across": lambda junk: MADE.navigator.step(
         vs.RobotState((0, 0), 0, 0, junk), [], 0.0
+    ),
+    "RobotState stamp": lambda junk: MADE.navigator.step(
+        vs.RobotState((0, 0), 0.0, 0.0, stamp=junk), [], 0.0
     ),
     "Logbook": lambda junk: vs.Logbook().note(junk),
     "Obstacle": vs.Obstacle.model_validate,

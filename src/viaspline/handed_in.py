@@ -69,6 +69,18 @@ def finite_from(name: str, value: object) -> float:
     return number
 
 
+def all_finite(*values: object) -> bool:
+    """Whether all that was handed in are finite numbers.
+
+    >>> all_finite(2, 0.5), all_finite(2, float("nan")), all_finite("2")
+    (True, False, False)
+    """
+    try:
+        return all(math.isfinite(value) for value in values)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        return False
+
+
 def time_from(name: str, value: object) -> float:
     """A length of time that was handed in [s].
 

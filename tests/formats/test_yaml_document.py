@@ -123,3 +123,16 @@ def test_aliases_of_aliases_are_refused_before_they_are_followed() -> None:
     text = "\n".join(["a0: &a0 [1, 2]", *lists])
     with pytest.raises(MissionError, match="with its aliases the file has more than"):
         yaml_document.yaml_document(text, "a.yaml")
+
+
+@pytest.mark.parametrize(
+    ("text", "remedy"),
+    [
+        ("robot: {radius_m: 0,1}", "write 0.1 for 0,1"),
+        ("route: {start: 0,0}", "a place as [0, 1]"),
+        ("robot: {[1]: 2}", "keys are words such as route"),
+    ],
+)
+def test_a_comma_in_a_number_or_a_place_is_told_as_what_it_is(text: str, remedy: str) -> None:
+    (fault,) = yaml_document.yaml_document(text, "a.yaml").faults
+    assert remedy in fault.remedy

@@ -84,6 +84,9 @@ def test_a_mapping_has_the_keys_of_its_models(path: Path, some: set[str]) -> Non
         ("Fov-Deg", ("robot",), "'fov_deg' belongs under lidar"),
         ("map", ("world",), "'map' belongs under known"),
         ("clear", ("robot",), "did you mean 'clearance_m'?"),
+        ("radius", ("robot",), "did you mean 'radius_m'?"),  # it was sent to a circle
+        ("radius_m", ("world", "known", 0, "circle"), "did you mean 'radius'?"),
+        ("Height", ("world", "known", 0), "did you mean 'height_m'?"),
         ("zzz", ("robot", "sensor"), "the keys here are range_m, lidar, velocity_noise_mps"),
     ],
 )

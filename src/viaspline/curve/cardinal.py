@@ -13,6 +13,7 @@ from viaspline.curve.arguments import frozen, working_copy
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.curve.tangents import ALPHA, PIECES, RULES
 from viaspline.errors import GeometryError
+from viaspline.handed_in import check_kind
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cardinal_tangents import knot_spacing
 
@@ -71,6 +72,7 @@ class CardinalSpline(PiecewiseCubic):
         tangents: Tangents = "cardinal",
     ) -> None:
         self._points = _as_points(points)
+        check_kind("closed", closed, (bool, np.bool_), "give True or False")
         count, dimension = self._points.shape
         self._slack = _as_slack(tension, slack, count if closed else count - 1)
         if closed and not (start_heading is None and end_heading is None):

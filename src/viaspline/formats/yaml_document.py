@@ -136,6 +136,8 @@ class Document:
         found = str(node.value) if is_text else "a list or mapping"
         problem = f"the key {found} is not a text"
         remedy = "keys are words such as route"
+        if str(node.tag) in (_TAG + "int", _TAG + "float"):
+            remedy += "; a comma ends a value: write 0.1 for 0,1, and a place as [0, 1]"
         if str(node.tag) == _TAG + "merge":
             problem, remedy = "merge keys (<<) aren't supported", "write the keys out"
         self._faults.append(UnplacedFault(path, problem, remedy, mark=_mark(node)))

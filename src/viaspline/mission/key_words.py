@@ -7,6 +7,7 @@ a model, its ``expected``; else of the type, its unit and its limits.
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any, Literal, get_args, get_origin
 
@@ -15,6 +16,9 @@ from viaspline.mission.fields import MAX_LENGTH_M
 from viaspline.mission.key_places import Model, Option, keys_of, models_below, options_at
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.unplaced_faults import LIMIT_DECIMALS, Path, number
+
+UNIT_ENDING = re.compile(r"_(m|cm|mm|km|s|deg|rad|mps[23]?|degps2?|dps|radps)$")
+"""The units that keys end in, and others that people write."""
 
 
 def field_of(path: Path) -> str:
@@ -109,6 +113,11 @@ def suggestion(key: str, path: Path, root: Model = MissionParts) -> tuple[str, s
     """
     known = keys_at(path, root)
     folded = key.strip().lower().replace("-", "_").replace(" ", "_")
+    same = [
+        name for name in known if name != folded and _without_unit(name) == _without_unit(folded)
+    ]
+    if same:
+        return f"did you mean '{same[0]}'?", same[0]
     home = "" if folded in known else _home(folded, root)
     if home:
         return f"'{folded}' belongs under {home}", None
@@ -118,6 +127,15 @@ def suggestion(key: str, path: Path, root: Model = MissionParts) -> tuple[str, s
     if near:
         return f"did you mean '{near[0]}'?", near[0]
     return "the keys here are " + ", ".join(known), None
+
+
+def _without_unit(key: str) -> str:
+    """A key without the unit that it ends in.
+
+    >>> _without_unit("max_speed_mps"), _without_unit("radius")
+    ('max_speed', 'radius')
+    """
+    return UNIT_ENDING.sub("", key)
 
 
 def _home(key: str, root: Model) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.handed_in import check_kind, number_from, numbers_from, time_from
+from viaspline.handed_in import all_finite, check_kind, number_from, numbers_from, time_from
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.robot_model import PERIOD_S, drive_model_of, is_driven
 from viaspline.machine.turns_on_spot import heading_onward
@@ -335,11 +335,15 @@ def _check(measured: RobotState, time: float, state: NavigationState) -> None:
     dimension = state.schedule.path.dimension
     position = numbers_from("state.position", measured.position)
     motion = (measured.heading, measured.speed, measured.speed_across, time)
-    is_finite = np.isfinite(position).all() and np.isfinite(numbers_from("state", motion)).all()
-    if position.shape != (dimension,) or not is_finite:
+    if position.shape != (dimension,) or not np.isfinite(position).all() or not all_finite(*motion):
         raise GeometryError(
             f"the state {measured} at {time} s needs {dimension} finite coordinates, "
             "a finite heading, speed and time"
+        )
+    if measured.stamp is not None and not all_finite(measured.stamp):
+        raise GeometryError(
+            f"state.stamp is {measured.stamp!r:.40}; give seconds by the clock of the steps, "
+            "or None for now"
         )
     if abs(time) > MAX_CLOCK_S:
         raise GeometryError(

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
-from viaspline.handed_in import all_of
+from viaspline.handed_in import all_of, numbers_from
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.world import distance as kernels
 from viaspline.kernels.world.clusters import group_labels
@@ -291,7 +291,7 @@ class World(ShownValue, ComparedByValue):
         from viaspline.kernels.clearance.footprint_pose import body_distances
 
         flat, shape = flat_places(positions)
-        angles = np.asarray(headings, np.float64)
+        angles = numbers_from("headings", headings)
         if angles.shape not in ((), shape) or not np.isfinite(angles).all():
             raise GeometryError(
                 f"headings of shape {angles.shape} don't go with {shape} positions, or are not "
