@@ -138,6 +138,24 @@ def test_a_via_point_is_moved_only_to_where_its_other_neighbour_can_be_reached_f
     assert all(plan.certificate.holds for plan in followed(data, refused))
 
 
+@given(room=st.floats(0.05, 0.95), clearance=st.sampled_from([0.0, 0.2, 0.6]))
+@example(room=0.6, clearance=0.5)  # 0.29 m were told, with which it was refused again
+@settings(deadline=None, max_examples=5)
+def test_a_radius_that_may_be_does_so_with_the_clearance_that_is_told(
+    room: float, clearance: float
+) -> None:
+    data = asked(wall(6.0, (4.0, 4.0 + room)), (2, 3), (10, 5), radius=0.5, clearance=clearance)
+    refused = refusal_of(data)
+    assert refused is not None
+    told = re.search(
+        r"(with robot.clearance_m 0 )?the body's radius may be at most (\S+) m", refused.remedy
+    )
+    assert told is not None
+    assert bool(told[1]) == (clearance > 0.0)
+    body = {"radius_m": float(told[2]), "clearance_m": 0.0}
+    assert vs.plan(vs.Mission.model_validate(data | {"robot": body})).certificate.holds
+
+
 def test_clearance_that_is_lowered_leaves_the_tracking_error_what_it_needs() -> None:
     data = asked(wall(4.0, (3.0, 3.8)), (2.0, 4.0), (10.0, 4.0))
     data["robot"]["tracking_error_m"] = 0.1

@@ -171,7 +171,8 @@ def _slimmer(room: float, requirements: Requirements) -> tuple[tuple[str, ...], 
     radius = _rounded_down(most - requirements.tracking_error)
     if radius <= 0.0:
         return (), ()
-    return (f"the body's radius may be at most {radius:.3f} m there",), ()
+    instead = "" if requirements.clearance == 0.0 else "with robot.clearance_m 0 "
+    return (f"{instead}the body's radius may be at most {radius:.3f} m there",), ()
 
 
 def _rounded_down(length: float) -> float:
