@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.state import RobotState
+from viaspline.robot.watching.looks_away import looks_away_by, ways_to_path
 from viaspline.robot.watching.measured_motion import noise_of
 from viaspline.robot.watching.set_beside import SETTLED, is_way_back_clear, room_on, way_back
 from viaspline.robot.watching.true_place import TruePlace
@@ -41,6 +43,7 @@ class Deviation:
         returns: Whether it was set there, and comes back; None if it has driven there. False: what
             is between it and its path is not clear.
         slowly: From where to where along the path it has to be slower for that, and how slow.
+        turned: By how much it looks another way than its path and can't turn on the spot [rad].
     """
 
     off: float
@@ -49,6 +52,7 @@ class Deviation:
     clearance: float
     returns: bool | None = None
     slowly: Slow | None = None
+    turned: float = 0.0
 
 
 def path_deviation(
@@ -77,6 +81,10 @@ def path_deviation(
     reach = 0.0 if task.mission.robot.footprint is None else task.mission.robot.outer_radius
     off = max(place.off - noise - reach * turned, 0.0)
     here = schedule.driven + place.distance
+    if was_set:
+        turned = looks_away_by(task.mission.robot, schedule.path, place.distance, measured)
+        if turned != 0.0:
+            return _set_askew(task, watch, knowledge, schedule, measured, place, turned)
     if was_set and off > kept + BESIDE_M:
         return _set_beside(task, watch, knowledge, schedule, measured, place, off)
     excused = 0.0 if watch.excuse is None else MARGIN * watch.excuse.left_at(here)
@@ -120,6 +128,33 @@ def _set_beside(
     slowly = Slow(place.distance + braking, end, slow)
     clearance = float(room.min()) - body
     return watch, Deviation(off, kept, kept, clearance, returns=True, slowly=slowly)
+
+
+def _set_askew(
+    task: DriveTask,
+    watch: Watch,
+    knowledge: Knowledge,
+    schedule: Schedule,
+    measured: RobotState,
+    place: TruePlace,
+    turned: float,
+) -> tuple[Watch, Deviation]:
+    """How one turns to its path that was set down looking another way: as it is, or not at all."""
+    kept, body, path = (
+        task.requirements.tracking_error,
+        task.requirements.outer_radius,
+        schedule.path,
+    )
+    over, radius = _convergence(task, task.limits.max_speed), task.mission.robot.turn_radius
+    assert radius is not None
+    places = ways_to_path(path, place.distance, measured, turned, radius, over)
+    room = room_on(knowledge.world, places)
+    off = max(2.0 * radius * math.sin(0.5 * turned) ** 2, place.off)
+    returns = is_way_back_clear(room, body + task.requirements.clearance, body)
+    if returns:
+        watch = replace(watch, excuse=Excuse(off, schedule.driven + place.distance, over + radius))
+    clearance = float(room.min()) - body
+    return watch, Deviation(off, kept, kept, clearance, returns=returns, turned=turned)
 
 
 def _slowest(task: DriveTask) -> float:

@@ -108,6 +108,11 @@ def _set_back(
         return Decision(schedule, (told,))
     told = _told(context, deviation, "the way back is not clear", "stops")
     why = f"it was set {deviation.off:.2f} m beside its path, and the way back is not clear"
+    if deviation.turned != 0.0:
+        why = (
+            f"it looks {math.degrees(abs(deviation.turned)):.0f}° away from its path, and has no "
+            "room to turn to it: turn it, or say how it stands by route.start.heading_deg"
+        )
     stopped = stop_for_good(context, why)
     return replace(stopped, events=(told, *stopped.events))
 
@@ -215,4 +220,7 @@ def _told(context: ReplanContext, deviation: Deviation, then: str, outcome: str)
         "outcome": outcome,
     }
     words = f"is {deviation.off:.3f} m beside its path; {kept}; {then}"
+    if deviation.turned != 0.0:
+        away = math.degrees(abs(deviation.turned))
+        words = f"looks {away:.0f}° away from its path, {deviation.off:.3f} m beside it; {then}"
     return Event("deviation", context.progress.time, context.here, words, data)
