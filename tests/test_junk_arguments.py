@@ -322,3 +322,15 @@ def test_a_part_of_a_mission_that_is_built_alone_names_its_keys_and_the_remedy()
     inside = {"world": {"known": [{"circle": {"center": (0, 0), "radius": -1}}]}}
     with pytest.raises(vs.MissionError, match=r"world\.known\[0\]\.circle\.radius"):
         vs.Mission.model_validate({**inside, "route": {"start": [5, 5], "goal": [9, 9]}})
+
+
+@pytest.mark.parametrize("value", [None, "3", [0.0, None], ["1", "2"], np.array(["1"])])
+def test_nothing_and_text_are_no_numbers(value: Any) -> None:
+    for ask in (MADE.law.state_at, MADE.law.time_at, MADE.curve.evaluate, MADE.curve.at_distance):
+        with pytest.raises(vs.GeometryError, match="expected numbers"):
+            ask(value)
+
+
+def test_whole_numbers_of_any_size_flags_and_lists_are_numbers() -> None:
+    for value in (1, True, 10**30, np.float32(0.5), [0, 1], np.int8(1)):
+        assert np.isfinite(MADE.law.state_at(value)[0]).all()

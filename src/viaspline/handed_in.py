@@ -6,6 +6,7 @@ Tested through ``test_junk_arguments``.
 from __future__ import annotations
 
 import math
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -123,16 +124,35 @@ def check_callable(name: str, value: object, example: str) -> None:
         raise GeometryError(f"{name} is {value!r:.40}, which can't be called; {example}")
 
 
-def numbers_from(name: str, values: object) -> NDArray[np.float64]:
-    """An array of numbers that was handed in; the same one if it is one already.
+def numbers_in(values: object) -> NDArray[np.float64]:
+    """Numbers that were handed in as an array; the same one if they are one already.
+
+    Nothing and text are none, though numpy makes nan of nothing and reads text.
 
     Raises:
         GeometryError: It holds something else, or has no regular shape.
     """
     try:
-        return np.asarray(values, np.float64)
+        found = np.asarray(values)
+        if found.dtype.kind not in "fiub":
+            for value in found.flat:
+                if not isinstance(value, Real):
+                    raise GeometryError(f"expected numbers, found {value!r:.40}")
+        return found.astype(np.float64, copy=False)
     except (TypeError, ValueError, OverflowError) as error:
-        raise GeometryError(f"{name}: expected numbers: {error}") from None
+        raise GeometryError(f"expected numbers: {error}") from None
+
+
+def numbers_from(name: str, values: object) -> NDArray[np.float64]:
+    """An argument of numbers; see ``numbers_in``.
+
+    Raises:
+        GeometryError: It holds something else, or has no regular shape.
+    """
+    try:
+        return numbers_in(values)
+    except GeometryError as error:
+        raise GeometryError(f"{name}: {error}") from None
 
 
 def all_of(

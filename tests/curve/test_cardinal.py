@@ -377,7 +377,7 @@ def test_the_callers_array_is_not_kept():
     [
         ({"points": [(0, 0)]}, r"shape \(n, d\) with n >= 2, not \(1, 2\)"),
         ({"points": [0, 1]}, r"not \(2,\)"),
-        ({"points": "abc"}, "expected an array of numbers"),
+        ({"points": "abc"}, "expected numbers"),
         ({"points": [(0, 0), (1, np.nan)]}, r"point 1 is not finite"),
         ({"points": [(0, 0), (1e200, 0)]}, "not finite"),
         ({"tension": 1.5}, "at most 1"),

@@ -254,7 +254,7 @@ def test_curves_that_do_not_fit_are_not_joined():
         ([[[0, 0], [1, 0], [2, np.nan], [3, 0]]], "span 0 .* not finite"),
         ([[[0, 0], [1, 0], [2, 1e101], [3, 0]]], "span 0 .* not finite"),
         ([LINE, np.add(LINE, [3.1, 0])], "span 1 starts 0.1 m from where span 0 ends"),
-        ([[1, 2], [3]], "expected an array of numbers"),
+        ([[1, 2], [3]], "expected numbers"),
     ],
 )
 def test_spans_that_are_no_curve_are_refused(spans, message):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import numbers_in
 from viaspline.kernels.arrays import Floats
 
 
@@ -18,10 +19,7 @@ def working_copy(values: ArrayLike) -> Floats:
     Raises:
         GeometryError: When the values are not numbers in a regular shape.
     """
-    try:
-        return np.array(values, dtype=np.float64, order="C")
-    except (TypeError, ValueError, OverflowError) as error:
-        raise GeometryError(f"expected an array of numbers: {error}") from None
+    return np.array(numbers_in(values), order="C")
 
 
 def call(values: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
@@ -29,10 +27,7 @@ def call(values: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
 
     Read-only arrays are copied: to the kernels they are another type, compiled again.
     """
-    try:
-        array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise GeometryError(f"expected numbers: {error}") from None
+    array = numbers_in(values)
     flags = array.flags
     if not (flags.c_contiguous and flags.writeable and flags.aligned):
         array = array.copy(order="C")
