@@ -24,6 +24,7 @@ from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.late_share import arrivals_of, late_share
 from viaspline.fleet.laying.lay_paths import LaidPaths, lay_paths
+from viaspline.fleet.plan_fleet import SWERVING_SHARE
 from viaspline.fleet.swerved_fleet import swerved_fleet
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.rides import rides_of
@@ -53,8 +54,9 @@ def lateness(rides, courses, timing) -> float:
 
 def sooner(timed: TimedFleet, laid: LaidPaths, seconds: float) -> TimedFleet:
     """As ``vs.plan_fleet`` spends its time on so many robots: on other paths, then on orders."""
-    timed = swerved_fleet(timed, laid.kept.rests, SEPARATION_M, seconds / 2.0)
-    return timed.improved(seconds / 2.0)
+    swerving = SWERVING_SHARE * seconds
+    timed = swerved_fleet(timed, laid.kept.rests, SEPARATION_M, swerving)
+    return timed.improved(seconds - swerving)
 
 
 def measured(count: int, seed: int, improve: float) -> tuple[list[float], str]:

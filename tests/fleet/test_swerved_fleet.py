@@ -75,6 +75,31 @@ def test_two_that_would_meet_head_on_for_long_hardly_wait() -> None:
     assert certify_fleet(after.ways.courses, after.timing.laws, SEPARATION_M).holds
 
 
+@pytest.mark.parametrize("angle_deg", [90, 120, 150])
+def test_of_two_that_cross_at_once_one_passes_behind_the_other(angle_deg: int) -> None:
+    x, y = 60.0 * np.cos(np.radians(angle_deg)), 60.0 * np.sin(np.radians(angle_deg))
+    before, after = swerved(
+        fleet_of([{"start": [-60, 0], "goal": [60, 0]}, {"start": [-x, -y], "goal": [x, y]}])
+    )
+    assert late(before) > 1.5
+    assert late(after) < 0.4 * late(before)
+    assert least_distance(after) >= 2.0 * RADIUS_M + SEPARATION_M - 1e-6
+
+
+def test_who_is_late_by_then_is_swerved_for_as_it_drives() -> None:
+    """The third one would meet the second one only because that waits for the first."""
+    first = {"start": [-60, 0], "goal": [60, 0]}
+    second = {"start": [1, -60], "goal": [1, 60]}
+    third = {"start": [-85, 20], "goal": [55, 20]}
+    alone, _ = timed(fleet_of([second, third]))
+    assert late(alone) == pytest.approx(0.0, abs=1e-6)
+    before, after = swerved(fleet_of([first, second, third]))
+    pair, _ = timed(fleet_of([first, second]))
+    assert late(before) > late(pair) + 1.0
+    assert late(after) < 0.4 * late(pair)
+    assert least_distance(after) >= 2.0 * RADIUS_M + SEPARATION_M - 1e-6
+
+
 def test_what_others_take_alone_stays_what_it_was() -> None:
     before, after = swerved(shallow())
     assert after.ways.rides.alone.tolist() == before.ways.rides.alone.tolist()
@@ -132,6 +157,17 @@ def rounds(seed: int, count: int, kinds: int) -> vs.Fleet:
         route = {"start": home, "via": via, "closed": True}
         members.append({"name": f"r{k}", "robot": f"k{k % kinds}", "route": route})
     return vs.Fleet.model_validate({"separation_m": 0.8, "robots": robots, "fleet": members})
+
+
+def test_of_more_timings_with_what_lies_ahead_the_soonest_is_taken() -> None:
+    ways = timed(rounds(11, 12, 1))[0].ways
+    one, more, again = (ways.timed_ahead(times) for times in (1, 8, 8))
+    assert one is not None
+    assert more is not None
+    assert again is not None
+    assert late(TimedFleet(ways, more)) < late(TimedFleet(ways, one)) - 0.1
+    assert certify_fleet(ways.courses, more.laws, 0.8).holds
+    assert more.laws.packed.arrive.tobytes() == again.laws.packed.arrive.tobytes()
 
 
 @settings(max_examples=6, deadline=None)

@@ -17,7 +17,7 @@ from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.patrols.driven_laps import write_law
 from viaspline.fleet.renewed_courses import renewed_courses
 from viaspline.fleet.renewed_crossings import renewed_crossings
-from viaspline.fleet.timing.improve_laws import improve_laws
+from viaspline.fleet.timing.improve_laws import improve_laws, timed_ahead
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import Timing, standing_laws, time_paths
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
@@ -103,6 +103,16 @@ class FleetWays:
         return time_paths(
             self.courses, self.crossings, self.rides, priorities, left_out, self.settled_laws()
         )
+
+    def timed_ahead(self, times: int) -> Timing | None:
+        """All robots timed with what lies ahead of them in view; None where some can't be so.
+
+        Args:
+            times: So often, each time with other orders.
+        """
+        priorities = [one.priority for one in self.members]
+        settled = self.settled_laws()
+        return timed_ahead(self.courses, self.crossings, self.rides, settled, priorities, times)
 
     def improved(
         self, timing: Timing, seconds: float, progress: Callable[[float], None] | None = None

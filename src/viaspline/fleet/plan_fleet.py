@@ -46,6 +46,8 @@ TRIES_S = 20.0
 """What may be spent on what would help those that aren't served [s on the reference machine]."""
 LEAST_TRIES = 8
 """Other paths are sought for those that wait where there is time for so many, at least."""
+SWERVING_SHARE = 0.8
+"""Of the time for sooner orders, of many robots, in which their paths are led aside at first."""
 POLISH_SHARE = 0.02
 """Of the time for other paths, in which sooner orders are sought with each of them."""
 
@@ -268,8 +270,9 @@ def _improved(
     """
     kept = paths.laid.kept
     if kept is not None and not timed.blocked and len(timed.ways.members) >= MANY:
-        timed = swerved_fleet(timed, kept.rests, fleet.separation_m, seconds / 2.0)
-        seconds = seconds / 2.0
+        swerving = SWERVING_SHARE * seconds
+        timed = swerved_fleet(timed, kept.rests, fleet.separation_m, swerving)
+        seconds -= swerving
     third = seconds / 3.0
     costs = [try_cost(timed, robot) for robot in range(len(timed.ways.members))]
     if kept is None or timed.blocked or not costs or LEAST_TRIES * max(costs) > third:

@@ -8,8 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.laying.resting_places import RestingPlaces
 from viaspline.fleet.timing.rides import FleetRides
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.linked_grid import LinkedGrid, new_linked_grid
 from viaspline.kernels.fleet.packed_samples import PackedSamples
 from viaspline.kernels.fleet.waits_with import RestGrid
@@ -19,16 +21,17 @@ APART_SHARE = 0.45
 NOBODY = -1
 
 
-def samples_of(courses: FleetCourses, rides: FleetRides) -> PackedSamples:
-    """Nodes of courses about evenly apart, with the laws of robots that are alone.
+def samples_of(courses: FleetCourses, rides: FleetRides, among: FleetLaws) -> PackedSamples:
+    """Nodes of courses about evenly apart, and when robots are there.
 
     Nobody rests at its start or its goal by them: other paths keep off those places anyway.
 
     Args:
         courses: Of the fleet.
         rides: How its robots drive alone.
+        among: How they drive among each other.
     """
-    packed, laws = courses.packed, rides.laws.packed
+    packed = courses.packed
     apart = max(2.0 * APART_SHARE * float(packed.reach.min(initial=np.inf)), 1e-3)
     nodes, sizes = [], [0]
     for begin, end in zip(packed.first[:-1].tolist(), packed.first[1:].tolist(), strict=True):
@@ -39,12 +42,19 @@ def samples_of(courses: FleetCourses, rides: FleetRides) -> PackedSamples:
         sizes.append(len(nodes[-1]))
     chosen = np.concatenate(nodes)
     first = np.cumsum(sizes, dtype=np.int64)
-    comes, goes = laws.arrive[chosen], laws.leave[chosen]
-    comes[first[:-1]], goes[first[1:] - 1] = goes[first[:-1]], comes[first[1:] - 1]
+    comes, goes = _when(among, chosen, first)
+    alone = np.stack(_when(rides.laws, chosen, first), axis=1)
     return PackedSamples(
         first, np.repeat(np.arange(len(courses.names)), sizes[1:]), packed.distance[chosen],
-        packed.place[chosen], comes, goes, packed.reach,
+        packed.place[chosen], comes, goes, alone, packed.reach,
     )  # fmt: skip
+
+
+def _when(laws: FleetLaws, nodes: Ints, first: Ints) -> tuple[Floats, Floats]:
+    """When robots come to nodes, and when they go on [s], each (m,)."""
+    comes, goes = laws.packed.arrive[nodes], laws.packed.leave[nodes]
+    comes[first[:-1]], goes[first[1:] - 1] = goes[first[:-1]], comes[first[1:] - 1]
+    return comes, goes
 
 
 def grid_of_samples(samples: PackedSamples, spare: float) -> LinkedGrid:

@@ -1,12 +1,12 @@
-"""Paths of a large fleet led aside where robots would wait long for each other.
+"""Paths of a large fleet led aside where robots wait long for each other.
 
 Where two paths cross at a small angle, or robots meet head-on, one of them waits until the other
-has passed all of the stretch that both drive along, whoever is let pass first: only other paths
-help. So all paths are looked at by samples, with what each pair waits in the mean; where a meeting
-costs long, one of the two paths swerves, so that it crosses the other one more steeply, or not at
-all. That takes milliseconds a robot. What is chosen is then laid and proven, and all are timed
-along it; then all are looked at once more. What is handed back is never later than what it began
-with.
+has passed all of the stretch that both drive along, whoever is let pass first; and where they cross
+steeply, a second or two: only other paths help. So all robots are looked at by samples, each as if
+it were alone among the others as they drive by their laws. Where it waits long its path swerves, so
+that it crosses the other one more steeply, or passes behind it, or not near it at all. That takes
+milliseconds a robot. What is chosen is then laid and proven, and all are timed along it; by these
+laws all are looked at once more. What is handed back is never later than what it began with.
 """
 
 from __future__ import annotations
@@ -19,16 +19,23 @@ from viaspline.fleet.laying.swerving import bend_of, kept_distances, swerved
 from viaspline.fleet.sampled_paths import grid_of_rests, grid_of_samples, samples_of
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.fleet.reckoned_waits import BETWEEN_M
+from viaspline.kernels.fleet.sampled_meetings import BETWEEN_M
 from viaspline.kernels.fleet.swerves_sought import SAVED, Swervers, X, swerves_sought
-from viaspline.kernels.fleet.waits_with import KEPT_MORE_M, waits_of_all
+from viaspline.kernels.fleet.waits_with import KEPT_MORE_M
 from viaspline.planner import Plan
 
-WORK_PER_S = 75_000_000
-"""Pairs of samples that are looked at in a second of the reference machine."""
-SWEEPS = 2
-"""So often all robots are looked at: where most have swerved others may as well."""
-LEAST_SAVED_S = 0.2
+PAIRS_PER_S = 75_000_000
+"""Pairs of samples that are looked at in a second of the reference machine,"""
+BOXES_PER_S = 2_000_000
+"""and boxes of crossings that are found and timed anew."""
+SPREADS_S = (2.0, 1.5, 1.0, 0.5)
+"""So much sooner or later than by their laws robots come to meetings [s]: much at first, where many
+paths and laws are going to change, less and less later on."""
+ONCE = 2
+"""With so many of these all are looked at once, with the others as long as it gets better."""
+TIMED_ANEW = 2
+"""So often they are timed along the new paths, each time with other orders."""
+LEAST_SAVED_S = 0.15
 """What a path with all its swerves saves at least, beyond what it takes [s]."""
 
 
@@ -46,16 +53,16 @@ def swerved_fleet(
     Returns:
         A fleet of the same robots, all of which are served, and are no later in all.
     """
-    best, work = timed, int(budget * WORK_PER_S)
-    for _ in range(SWEEPS):
-        found, work = _sought(best.ways, rests, work)
-        led = _swerved(best.ways, rests, found)
-        if not led:
-            break
-        anew = _timed(best.ways, led, separation)
-        if anew.rank >= best.rank:
-            break
-        best = anew
+    best, cost = timed, len(timed.ways.crossings.packed.cell) / BOXES_PER_S
+    for k, spread in enumerate(SPREADS_S):
+        is_sooner = True
+        while is_sooner and budget > cost:
+            found, left = _sought(best, rests, spread, int((budget - cost) * PAIRS_PER_S))
+            budget = left / PAIRS_PER_S
+            led = _swerved(best.ways, rests, found)
+            anew = _timed(best.ways, led, separation) if led else best
+            is_sooner = anew.rank < best.rank and k >= ONCE
+            best = min(best, anew, key=lambda one: one.rank)
     return best
 
 
@@ -68,7 +75,11 @@ def _timed(ways: FleetWays, led: dict[int, Plan], separation: float) -> TimedFle
         separation: Free space between any two bodies [m].
     """
     while True:
-        anew = TimedFleet.by_priority(ways.with_paths(led, separation))
+        there = ways.with_paths(led, separation)
+        timing = there.timed_ahead(TIMED_ANEW)
+        if timing is not None:
+            return TimedFleet(there, timing)
+        anew = TimedFleet.by_priority(there)
         pairs = anew.timing.blocked.items()
         given_up = {robot for pair in pairs for robot in pair} & led.keys()
         if not given_up:
@@ -76,9 +87,12 @@ def _timed(ways: FleetWays, led: dict[int, Plan], separation: float) -> TimedFle
         led = {robot: plan for robot, plan in led.items() if robot not in given_up}
 
 
-def _sought(ways: FleetWays, rests: RestingPlaces, work: int) -> tuple[Floats, int]:
+def _sought(
+    timed: TimedFleet, rests: RestingPlaces, spread: float, work: int
+) -> tuple[Floats, int]:
     """Swerves by which less is waited, and what work is left, as ``swerves_sought``."""
-    samples = samples_of(ways.courses, ways.rides)
+    ways = timed.ways
+    samples = samples_of(ways.courses, ways.rides, timed.timing.laws)
     grid = grid_of_samples(samples, BETWEEN_M)
     kept = [kept_distances(plan) for plan in ways.planar]
     swervers = Swervers(
@@ -86,9 +100,10 @@ def _sought(ways: FleetWays, rests: RestingPlaces, work: int) -> tuple[Floats, i
         np.cumsum([0, *(len(one) for one in kept)], dtype=np.int64),
         np.concatenate(kept),
     )
-    order = np.argsort(-waits_of_all(samples, grid), kind="stable")
+    ends = samples.first[1:] - 1
+    order = np.argsort(samples.alone[ends, 0] - samples.comes[ends], kind="stable")
     by_place = grid_of_rests(rests, ways.courses, KEPT_MORE_M)
-    return swerves_sought(samples, grid, by_place, swervers, order, work)
+    return swerves_sought(samples, grid, by_place, swervers, order, spread, work)
 
 
 def _swerved(ways: FleetWays, rests: RestingPlaces, swerves: Floats) -> dict[int, Plan]:

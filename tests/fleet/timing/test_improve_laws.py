@@ -75,3 +75,14 @@ def test_many_are_timed_anew_with_what_lies_ahead_and_stay_proven() -> None:
     ways, laws = better.ways, better.timing.laws
     assert certify_fleet(ways.courses, laws, 1.0).holds
     assert laws.packed.arrive.tobytes() == other.timing.laws.packed.arrive.tobytes()
+
+
+def test_there_is_no_timing_ahead_where_two_come_towards_each_other_in_a_lane() -> None:
+    walls = [{"polygon": [[-2, y], [26, y], [26, y + 4], [-2, y + 4]]} for y in (-5.0, 1.0)]
+    ends = ([0, 0], [24, 0])
+    data = [
+        {"name": f"r{k}", "rest": "leave", "route": {"start": ends[k], "goal": ends[1 - k]}}
+        for k in range(2)
+    ]
+    fleet = vs.Fleet.model_validate({"world": {"known": walls}, "separation_m": 1, "fleet": data})
+    assert FleetWays.of(fleet, crossing_paths(fleet)).timed_ahead(3) is None

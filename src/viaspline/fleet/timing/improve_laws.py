@@ -18,10 +18,11 @@ from viaspline.kernels.fleet.passages import passages_of
 
 WORK_PER_S = 3_000_000
 """How many nodes and passages a search looks at in a second of the reference machine."""
-TIMED_ANEW_SHARE = 0.8
+TIMED_ANEW_SHARE = 0.5
 """So much of that may go to timing all robots anew, of many,"""
-FIRST_COME_WORK = 0.1
-"""what a node or a passage counts there: others are looked at one by one,"""
+ORDERS_WORK = 0.1
+"""what a node or a passage counts where orders are settled or turned: others are looked at one by
+one,"""
 FORESEEN = 0.2
 """what a second counts that is foreseen to be waited later on,"""
 CHANCE_S = 0.3
@@ -67,12 +68,51 @@ def improve_laws(
     if np.count_nonzero(search.movable) >= MANY:
         laws, spent = _timed_anew(search, laws, int(TIMED_ANEW_SHARE * work))
     while spent < work:
-        look = search.look if rounds % 2 else search.turn  # each finds what the other one doesn't
-        spent += look(laws, min(work - spent, int(ROUND_S * WORK_PER_S)))
+        most = min(work - spent, int(ROUND_S * WORK_PER_S))
+        if rounds % 2:  # each finds what the other one doesn't
+            spent += search.look(laws, most)
+        else:
+            spent += max(int(ORDERS_WORK * search.turn(laws, int(most / ORDERS_WORK))), 1)
         rounds += 1
         if progress is not None:
             progress(min(spent / work, 1.0))
     return replace(timing, laws=FleetLaws(laws))
+
+
+def timed_ahead(
+    courses: FleetCourses, crossings: FleetCrossings, rides: FleetRides, given: FleetLaws,
+    priorities: Sequence[float], times: int,
+) -> Timing | None:  # fmt: skip
+    """The soonest of some timings in which orders are settled with what lies ahead in view.
+
+    Args:
+        courses: The paths of the robots.
+        crossings: Where these come near each other.
+        rides: How they drive alone.
+        given: Laws of robots that have theirs before the others, and keep them.
+        priorities: See ``time_paths``, (n,).
+        times: How many.
+
+    Returns:
+        None where each of these leaves robots without a law.
+    """
+    passages = passages_of(courses.packed, crossings.packed)
+    settled = np.flatnonzero(given.packed.is_timed).tolist()
+    search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
+    best, chance = None, 0.0
+    for _ in range(times):
+        tried = copied_laws(given.packed)
+        search.first_come(tried, FORESEEN, chance)
+        chance = CHANCE_S
+        if tried.is_timed.all() and (best is None or _gain(search, best, tried) > 0.0):
+            best = tried
+    return None if best is None else Timing(FleetLaws(best), {})
+
+
+def _gain(search: LawSearch, laws: PackedLaws, others: PackedLaws) -> float:
+    """How much sooner all that may be changed arrive by other laws, weighed by priority [s]."""
+    ends = (search.courses.packed.first[1:] - 1)[search.movable]
+    return float(search.weight[search.movable] @ (laws.arrive[ends] - others.arrive[ends]))
 
 
 def _timed_anew(search: LawSearch, laws: PackedLaws, work: int) -> tuple[PackedLaws, int]:
@@ -86,17 +126,12 @@ def _timed_anew(search: LawSearch, laws: PackedLaws, work: int) -> tuple[PackedL
     Returns:
         The soonest laws, those that there were among them, and how many were looked at.
     """
-    ends, spent, chance = search.courses.packed.first[1:] - 1, 0, 0.0
-    best, each = laws, 0
+    best, each, spent, chance = laws, 0, 0, 0.0
     while spent + each <= work:
         tried = copied_laws(laws)
         tried.is_timed[search.movable] = False
-        each = int(FIRST_COME_WORK * search.first_come(tried, FORESEEN, chance))
+        each = int(ORDERS_WORK * search.first_come(tried, FORESEEN, chance))
         spent, chance = spent + each, CHANCE_S
-        sooner = (best.arrive[ends] - tried.arrive[ends])[search.movable]
-        if (
-            tried.is_timed[search.movable].all()
-            and float(search.weight[search.movable] @ sooner) > 0.0
-        ):
+        if tried.is_timed[search.movable].all() and _gain(search, best, tried) > 0.0:
             best = tried
     return best, spent

@@ -1,4 +1,4 @@
-"""Paths of a fleet looked at here and there, and when their robots are there if all drive alone.
+"""Paths of a fleet looked at here and there, and when their robots are there.
 
 Tested through ``fleet/test_swerved_fleet``.
 """
@@ -20,8 +20,9 @@ class PackedSamples(NamedTuple):
         robot: Of each sample, (m,).
         distance: Along the path of the robot [m], (m,).
         place: [m], (m, 2).
-        comes: When the robot comes there [s], (m,).
+        comes: When the robot comes there, by its law among the others [s], (m,).
         goes: When it goes on [s], (m,).
+        alone: When it would come there and go on if it were alone [s], (m, 2).
         reach: How far each robot keeps others away on its part [m], (n,).
     """
 
@@ -31,4 +32,5 @@ class PackedSamples(NamedTuple):
     place: Floats
     comes: Floats
     goes: Floats
+    alone: Floats
     reach: Floats

@@ -1,4 +1,8 @@
-"""What a drive that differs a little from another one would wait, and whether it comes to rests.
+"""What a drive waits for others that have their laws, and whether it comes to rests of theirs.
+
+Along its way it comes later to each meeting by what it has waited before. Both robots come sooner
+or later than reckoned, so that a meeting costs the lesser wait in the mean; where the other one has
+less to wait, it is that one that waits.
 
 Tested through ``fleet/test_swerved_fleet``.
 """
@@ -14,7 +18,7 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.expected_wait import expected_wait
 from viaspline.kernels.fleet.linked_grid import NEXT, NONE, LinkedGrid, column_of
 from viaspline.kernels.fleet.packed_samples import PackedSamples
-from viaspline.kernels.fleet.reckoned_waits import (
+from viaspline.kernels.fleet.sampled_meetings import (
     BETWEEN_M,
     FIRST,
     HIGH,
@@ -23,20 +27,17 @@ from viaspline.kernels.fleet.reckoned_waits import (
     LOW,
     OTHER_LATE,
     ROBOT,
+    SHIFT,
     WAIT,
     Meetings,
-    new_meetings,
-    reckoned_waits,
+    add_meeting,
+    find_meetings,
 )
-from viaspline.kernels.fleet.swerve_shape import SampledDrive, sampled_drive
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.fleet.swerve_shape import SampledDrive
+from viaspline.kernels.jit import inner, uncounted
 
-SPREAD_S = 2.0
-"""So much sooner or later two robots come to a meeting than foreseen: standard deviation [s]."""
-HORIZON_S = 12.0
-"""Meetings of which one robot is gone so long before the other one comes stay out of it [s]."""
-MOST_MEETINGS = 1000
-"""Of one robot, that are within the horizon."""
+FAR = 1e6
+"""The square of how often two samples are farther apart than is too near, at most."""
 KEPT_MORE_M = 0.15
 """By so much more than it has to a swerve keeps off places where others rest [m]."""
 
@@ -77,46 +78,131 @@ def comes_to_rest(
     return False
 
 
-@inner
+@uncounted
+def wait_in_turn(meetings: Meetings, spread: float) -> float:
+    """What is waited at meetings, one after the other [s]. ``WAIT`` and ``SHIFT`` are written.
+
+    Args:
+        meetings: In the order in which the drive comes to them.
+        spread: So much sooner or later two robots come to a meeting than foreseen: standard
+            deviation [s].
+    """
+    shift, total = 0.0, 0.0
+    for g in range(meetings.written[0]):
+        late = meetings.real[g, LATE] - shift
+        other_late = meetings.real[g, OTHER_LATE] + shift
+        wait = expected_wait(late, other_late, spread)
+        meetings.real[g, WAIT], meetings.real[g, SHIFT] = wait, shift
+        total += wait
+        if late < other_late:
+            shift += wait
+    return total
+
+
+@uncounted
+def shift_behind(meetings: Meetings, g: int) -> float:
+    """How much a drive has waited in all when it has passed meeting g [s]."""
+    shift = meetings.real[g, SHIFT]
+    if meetings.real[g, LATE] - shift < meetings.real[g, OTHER_LATE] + shift:
+        return shift + meetings.real[g, WAIT]
+    return shift
+
+
+@uncounted
+def _look_at_pair(
+    samples: PackedSamples, robot: int, drive: SampledDrive, other: int, rows: tuple[int, int],
+    others: tuple[int, int], behind: tuple[int, float], soonest: tuple[float, float],
+) -> tuple[float, float, int]:  # fmt: skip
+    """What two robots come too early for letting each other pass, by some samples of both.
+
+    Args:
+        samples: Of all paths.
+        robot: The one,
+        drive: and its samples.
+        other: The other one.
+        rows: From which sample of the drive to which.
+        others: From which sample of all to which.
+        behind: Behind which sample of the drive it comes later than it says, and how much [s].
+        soonest: What is known of that already [s].
+
+    Returns:
+        (late, other late, how many pairs of samples were looked at).
+    """
+    late, other_late = soonest
+    near, looks, i = samples.reach[robot] + samples.reach[other] + BETWEEN_M, 0, rows[0]
+    scale = 1.0 / (near * near)
+    while i < rows[1]:
+        x, y = drive.place[i, 0], drive.place[i, 1]
+        later = behind[1] if i > behind[0] else 0.0
+        q, nearest = others[0], np.inf
+        while q < others[1]:
+            dx, dy = x - samples.place[q, 0], y - samples.place[q, 1]
+            square = (dx * dx + dy * dy) * scale
+            looks += 1
+            nearest = min(nearest, square)
+            if square < 1.0:
+                late = max(late, samples.goes[q] - drive.comes[i] - later)
+                other_late = max(other_late, drive.goes[i] + later - samples.comes[q])
+                q += 1
+            else:
+                q += int(math.sqrt(square))  # samples are nearer to each other
+        i += 1 if nearest < 1.0 else int(math.sqrt(min(nearest, FAR)))
+    return late, other_late, looks
+
+
+@uncounted
 def wait_of_pair(
-    samples: PackedSamples, robot: int, drive: SampledDrive, meeting: Ints, begin: int, end: int
-) -> tuple[float, int]:
-    """What one meeting costs with another drive, that differs from some sample to another.
+    samples: PackedSamples, robot: int, drive: SampledDrive, known: Meetings, g: int,
+    moved: tuple[int, int, float], spread: float, most: float,
+) -> tuple[float, int]:  # fmt: skip
+    """What one meeting costs where a drive is led aside.
+
+    Args:
+        samples: Of all paths.
+        robot: Whose drive it is.
+        drive: Where it is led aside; when it comes later behind that isn't in it yet.
+        known: The meetings of the drive as it was.
+        g: Which of them.
+        moved: From which sample to which it is led aside, and how much later it comes behind that.
+        spread: See ``wait_in_turn`` [s].
+        most: It isn't looked further where it costs more [s].
 
     Returns:
         (the wait [s], how many pairs of samples were looked at).
     """
-    other = meeting[ROBOT]
-    first = samples.first[other]
-    more = end - begin
-    low = max(first + meeting[LOW] - more, first)
-    high = min(first + meeting[HIGH] + more + 1, samples.first[other + 1])
-    near = samples.reach[robot] + samples.reach[other] + BETWEEN_M
-    late, other_late, looks = -np.inf, -np.inf, 0
-    i, last = min(begin, meeting[FIRST]), max(end, meeting[LAST] + 1)
-    while i < last:
-        x, y = drive.place[i, 0], drive.place[i, 1]
-        q, nearest = low, np.inf
-        while q < high:
-            apart = math.hypot(x - samples.place[q, 0], y - samples.place[q, 1])
-            looks += 1
-            if apart < near:
-                late = max(late, samples.goes[q] - drive.comes[i])
-                other_late = max(other_late, drive.goes[i] - samples.comes[q])
-            nearest = min(nearest, apart)
-            q += 1 + max(int((apart - near) / near), 0)  # samples are nearer to each other
-        i += 1 + max(int((nearest - near) / near), 0)
+    begin, end, longer = moved
+    other, shift = known.whole[g, ROBOT], known.real[g, SHIFT]
+    first, last = known.whole[g, FIRST], known.whole[g, LAST] + 1
+    others = (
+        max(samples.first[other] + known.whole[g, LOW] - (end - begin), samples.first[other]),
+        min(
+            samples.first[other] + known.whole[g, HIGH] + end - begin + 1, samples.first[other + 1]
+        ),
+    )
+    behind = (end, longer)
+    late, other_late, looks = _look_at_pair(
+        samples, robot, drive, other, (first, last), others, behind, (-np.inf, -np.inf)
+    )
+    if late > -np.inf:
+        wait = expected_wait(late - shift, other_late + shift, spread)
+        if wait > most:
+            return wait, looks
+    for rows in ((begin, first), (last, end)):
+        late, other_late, more = _look_at_pair(
+            samples, robot, drive, other, rows, others, behind, (late, other_late)
+        )
+        looks += more
     if late == -np.inf:
         return 0.0, looks
-    return expected_wait(late, other_late, SPREAD_S), looks
+    return expected_wait(late - shift, other_late + shift, spread), looks
 
 
-@inner
+@uncounted
 def waits_with(
     samples: PackedSamples, grid: LinkedGrid, robot: int, drive: SampledDrive, known: Meetings,
-    moved: tuple[int, int, float], asked: Ints, most: float, scratch: Meetings,
+    moved: tuple[int, int, float], asked: Ints, spread: float, scratch: Meetings,
 ) -> float:  # fmt: skip
-    """What a drive costs that differs from one whose meetings are known [s].
+    """What a drive waits that differs from one whose meetings are known [s].
 
     Args:
         samples: Of all paths.
@@ -126,42 +212,27 @@ def waits_with(
         known: The meetings of the other drive.
         moved: From which sample to which it differs, and how much later it comes behind that [s].
         asked: Without any meeting, (n, 2); written to, and left so.
-        most: More isn't looked for [s].
+        spread: See ``wait_in_turn`` [s].
         scratch: Written to.
     """
     begin, end, longer = moved
-    total, low, high = 0.0, begin, end
+    low, high = begin, end
+    scratch.written[0] = 0
     for g in range(known.written[0]):
-        one, times = known.whole[g], known.real[g]
-        if one[LAST] < begin:
-            total += times[WAIT]
-        elif one[FIRST] >= end:
-            total += expected_wait(times[LATE] - longer, times[OTHER_LATE] + longer, SPREAD_S)
+        first, last, other = known.whole[g, FIRST], known.whole[g, LAST], known.whole[g, ROBOT]
+        late, other_late = known.real[g, LATE], known.real[g, OTHER_LATE]
+        if last < begin:
+            add_meeting(scratch, known.whole, g, late, other_late)
+        elif first >= end:
+            add_meeting(scratch, known.whole, g, late - longer, other_late + longer)
         else:
-            span = asked[one[ROBOT]]
-            span[0], span[1] = min(span[0], one[FIRST]), max(span[1], one[LAST])
-            low, high = min(low, one[FIRST]), max(high, one[LAST] + 1)
-    if total < most:
-        total += reckoned_waits(
-            samples, grid, robot, drive, (begin, end), (low, high), asked, SPREAD_S, HORIZON_S,
-            most - total, scratch,
-        )  # fmt: skip
+            asked[other, 0], asked[other, 1] = (
+                min(asked[other, 0], first),
+                max(asked[other, 1], last),
+            )
+            low, high = min(low, first), max(high, last + 1)
+    find_meetings(samples, grid, robot, drive, (begin, end), (low, high), asked, scratch)
     for g in range(known.written[0]):
-        span = asked[known.whole[g, ROBOT]]
-        span[0], span[1] = drive.distance.size, -1
-    return total
-
-
-@kernel
-def waits_of_all(samples: PackedSamples, grid: LinkedGrid) -> Floats:
-    """What the drive of each robot costs where it meets others [s], (n,)."""
-    robots = samples.reach.size
-    asked, waits = np.zeros((robots, 2), np.int64), np.zeros(robots)
-    meetings = new_meetings(robots, MOST_MEETINGS)
-    for robot in range(robots):
-        drive = sampled_drive(samples, robot)
-        whole = (0, drive.distance.size)
-        waits[robot] = reckoned_waits(
-            samples, grid, robot, drive, whole, whole, asked, SPREAD_S, HORIZON_S, np.inf, meetings
-        )
-    return waits
+        other = known.whole[g, ROBOT]
+        asked[other, 0], asked[other, 1] = drive.distance.size, -1
+    return wait_in_turn(scratch, spread)
