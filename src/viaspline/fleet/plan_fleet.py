@@ -46,7 +46,7 @@ TRIES_S = 20.0
 """What may be spent on what would help those that aren't served [s on the reference machine]."""
 LEAST_TRIES = 8
 """Other paths are sought for those that wait where there is time for so many, at least."""
-SWERVING_SHARE = 0.8
+SWERVING_SHARE = 0.9
 """Of the time for sooner orders, of many robots, in which their paths are led aside at first."""
 POLISH_SHARE = 0.02
 """Of the time for other paths, in which sooner orders are sought with each of them."""

@@ -24,7 +24,7 @@ from viaspline.kernels.fleet.swerves_sought import SAVED, Swervers, X, swerves_s
 from viaspline.kernels.fleet.waits_with import KEPT_MORE_M
 from viaspline.planner import Plan
 
-PAIRS_PER_S = 75_000_000
+PAIRS_PER_S = 80_000_000
 """Pairs of samples that are looked at in a second of the reference machine,"""
 BOXES_PER_S = 2_000_000
 """and boxes of crossings that are found and timed anew."""
