@@ -55,8 +55,8 @@ def lateness(rides, courses, timing) -> float:
 def sooner(timed: TimedFleet, laid: LaidPaths, seconds: float) -> TimedFleet:
     """As ``vs.plan_fleet`` spends its time on so many robots: on other paths, then on orders."""
     swerving = SWERVING_SHARE * seconds
-    timed = swerved_fleet(timed, laid.kept.rests, SEPARATION_M, swerving)
-    return timed.improved(seconds - swerving)
+    timed, left = swerved_fleet(timed, laid.kept.rests, SEPARATION_M, swerving)
+    return timed.improved(seconds - swerving + left)
 
 
 def measured(count: int, seed: int, improve: float) -> tuple[list[float], str]:

@@ -47,7 +47,9 @@ def swerved(fleet: vs.Fleet, budget: float = FAR_S) -> tuple[TimedFleet, TimedFl
     """The fleet as it was, and as it is with swerves."""
     before, paths = timed(fleet)
     assert paths.laid.kept is not None
-    return before, swerved_fleet(before, paths.laid.kept.rests, fleet.separation_m, budget)
+    after, left = swerved_fleet(before, paths.laid.kept.rests, fleet.separation_m, budget)
+    assert 0.0 <= left <= budget
+    return before, after
 
 
 def places(plan: Plan, times: Floats) -> Floats:

@@ -47,7 +47,8 @@ TRIES_S = 20.0
 LEAST_TRIES = 8
 """Other paths are sought for those that wait where there is time for so many, at least."""
 SWERVING_SHARE = 0.9
-"""Of the time for sooner orders, of many robots, in which their paths are led aside at first."""
+"""Of the time for sooner orders, of many robots, in which their paths are led aside at first: so
+much at most."""
 POLISH_SHARE = 0.02
 """Of the time for other paths, in which sooner orders are sought with each of them."""
 
@@ -271,8 +272,8 @@ def _improved(
     kept = paths.laid.kept
     if kept is not None and not timed.blocked and len(timed.ways.members) >= MANY:
         swerving = SWERVING_SHARE * seconds
-        timed = swerved_fleet(timed, kept.rests, fleet.separation_m, swerving)
-        seconds -= swerving
+        timed, left = swerved_fleet(timed, kept.rests, fleet.separation_m, swerving)
+        seconds += left - swerving
     third = seconds / 3.0
     costs = [try_cost(timed, robot) for robot in range(len(timed.ways.members))]
     if kept is None or timed.blocked or not costs or LEAST_TRIES * max(costs) > third:

@@ -41,7 +41,7 @@ LEAST_SAVED_S = 0.15
 
 def swerved_fleet(
     timed: TimedFleet, rests: RestingPlaces, separation: float, budget: float
-) -> TimedFleet:
+) -> tuple[TimedFleet, float]:
     """A fleet of which some robots swerve, so that all wait less.
 
     Args:
@@ -51,19 +51,21 @@ def swerved_fleet(
         budget: What may be spent on looking [s of the reference machine].
 
     Returns:
-        A fleet of the same robots, all of which are served, and are no later in all.
+        A fleet of the same robots, all of which are served, and are no later in all; and what is
+        left of the budget [s of the reference machine].
     """
     best, cost = timed, len(timed.ways.crossings.packed.cell) / BOXES_PER_S
     for k, spread in enumerate(SPREADS_S):
         is_sooner = True
         while is_sooner and budget > cost:
-            found, left = _sought(best, rests, spread, int((budget - cost) * PAIRS_PER_S))
+            work = int((budget - cost) * PAIRS_PER_S)
+            found, left = _sought(best, rests, spread, work)
             budget = left / PAIRS_PER_S
             led = _swerved(best.ways, rests, found)
             anew = _timed(best.ways, led, separation) if led else best
             is_sooner = anew.rank < best.rank and k >= ONCE
             best = min(best, anew, key=lambda one: one.rank)
-    return best
+    return best, budget
 
 
 def _timed(ways: FleetWays, led: dict[int, Plan], separation: float) -> TimedFleet:
