@@ -93,13 +93,13 @@ def true_place(
     low = max([min(last, should) - AROUND_M - around, 0.0, *passed])
     high = min([max(last, should) + AROUND_M + around, path.length, *to_come])
     until = min([high, *left])
-    found = [project(path, measured.position, min(low, until), until)]
-    if left and moves and robot.held_heading is None:  # how it looks tells on which way it is
-        found.append(project(path, measured.position, left[-1], max(high, left[-1])))
+    found = [(project(path, measured.position, min(low, until), until), moves)]
+    if left:  # how it looks tells whether it has left the turn, and stands or creeps beyond it
+        found.append((project(path, measured.position, left[-1], max(high, left[-1])), True))
     reach = 2.0 * max(robot.outer_radius, AT_TURN_M)
     offs = []
-    for distance, aside in found:
-        turned = _turned(robot, schedule, measured.heading, distance) if moves else 0.0
+    for (distance, aside), looks_on in found:
+        turned = _turned(robot, schedule, measured.heading, distance) if looks_on else 0.0
         offs.append((aside + reach * math.sin(0.5 * turned), distance, aside))
     off, distance, aside = min(offs)
     return TruePlace(distance, aside, aside if robot.footprint is None else off)
