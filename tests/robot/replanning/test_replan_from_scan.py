@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.mission.model import Mission
@@ -98,6 +98,23 @@ def test_a_robot_that_is_shut_in_waits_and_gives_up(mission_of: Make, box_at: Sh
     assert run.events[-1].kind == "stopped"
     assert run.certificate.clearance > 0.0
     assert run.duration < 60
+
+
+@given(st.floats(2.3, 4.0), st.sampled_from([0.0, 0.02]))
+@example(2.5, 0.0)  # it went on to 3 cm from where it had to stop, and had used up its room
+@settings(deadline=None, max_examples=2)
+def test_one_that_is_shut_in_stands_where_it_has_room_to_turn_away(
+    mission_of: Make, box_at: Shape, half: float, noise: float
+) -> None:
+    out = half + 0.5
+    ring = [
+        box_at(-out, -out, out, -half, "south"), box_at(-out, half, out, out, "north"),
+        box_at(-out, -half, -half, half, "west"), box_at(half, -half, out, half, "east"),
+    ]  # fmt: skip
+    robot = {**ROBOT, "sensor": {"lidar": {**LIDAR, "noise_m": noise}}}
+    run = simulate(mission_of([0, 0], [20, 0], unseen=ring, **robot))
+    assert not run.reached
+    assert half - np.abs(run.positions).max() > 2.0 * (0.3 + 0.1)
 
 
 def test_a_door_that_opens_while_it_waits_lets_it_go_on(

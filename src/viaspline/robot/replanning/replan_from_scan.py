@@ -26,6 +26,7 @@ from viaspline.robot.replanning.deadline import (
     RETRY_INTERVAL_S,
     SPENT_AT_REST,
     is_paused,
+    last_place,
     with_time_to_search,
 )
 from viaspline.robot.replanning.recovery import restore_clearance, way_out
@@ -122,7 +123,7 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
         decision = stop_for_good(blocked, SPENT_AT_REST) if kept is None else kept
         return replace(decision, searched=True, work=as_seen.work)
     if result.candidate is None:
-        decision = _hold(context, _plain(result.refusal))
+        decision = _hold(blocked, _plain(result.refusal))
         return replace(decision, searched=True, work=as_seen.work)
     decision = take_over(blocked, result.candidate, result.skip)
     detected = tuple(context.detection(world, index) for index in indices)
@@ -283,12 +284,19 @@ def _plain(refusal: PlanningError | str) -> str:
 
 
 def _hold(context: ReplanContext, reason: str) -> Decision:
-    """Stay on the path as far as it is clear; give up after a long stand."""
+    """Go no farther than where there is room to turn away; give up after a long stand.
+
+    Who went on for as long as the path is clear would use up the room that it has.
+
+    Args:
+        context: The robot, with what is in its way.
+        reason: Why there is no way on.
+    """
     time, wait = context.progress.time, context.schedule.wait
     since = time if wait is None or context.speed > 0.0 else wait.since
     if time - since >= MAX_STAND_S:
         return stop_for_good(context, reason)
     events = (braked(context, reason),) if context.speed > 0.0 and wait is None else ()
-    waiting = Wait(since, time + RETRY_INTERVAL_S, reason)
-    schedule = replace(context.schedule, wait=waiting, pending=None, held_at=math.inf)
+    waiting, held_at = Wait(since, time + RETRY_INTERVAL_S, reason), last_place(context)
+    schedule = replace(context.schedule, wait=waiting, pending=None, held_at=held_at)
     return Decision(schedule, events)
