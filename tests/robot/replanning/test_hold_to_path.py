@@ -9,11 +9,14 @@ import numpy as np
 import pytest
 import shapely
 
+from viaspline.curve.bending import curvature_bound
+from viaspline.curve.certificate import certify
 from viaspline.mission.model import Mission
 from viaspline.planner import plan
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
+from viaspline.robot.state import RobotState
 
 Make = Callable[..., Mission]
 WHEELS = {"differential": {"track_m": 0.3}, "delay_s": 0.1, "lag_s": 0.1}
@@ -98,3 +101,41 @@ def test_a_robot_that_can_not_stay_so_near_stops_and_says_so(
     assert run.reason is not None
     assert "farther beside its path than the 0.000 m" in run.reason
     assert run.certificate.clearance > 0.0
+
+
+def test_a_steered_robot_that_could_not_follow_takes_wider_turns() -> None:
+    """Where its wheels are turned as far as they go it has no steering left, however slow it is."""
+    block = [[24.204, 20.097], [23.234, 20.628], [22.703, 19.658], [23.672, 19.127]]
+    mission = Mission.model_validate(
+        {
+            "world": {
+                "bounds": [-3, -3, 39, 39],
+                "known": [{"polygon": block}],
+                "unseen": [{"circle": {"center": [16.122, 10.541], "radius": 2.644}}],
+            },
+            "robot": {
+                "radius_m": 0.5, "clearance_m": 0.3, "max_speed_mps": 1.298,
+                "max_lateral_accel_mps2": 0.8, "sensor": {"range_m": 2.886},
+                "drive": {
+                    "ackermann": {"wheelbase_m": 1, "max_steer_deg": 32}, "delay_s": 0.1,
+                    "lag_s": 0.1,
+                },
+            },
+            "route": {
+                "start": [19.984, 12.555], "via": [[8.193, 19.836], [26.396, 18.049]],
+                "closed": True, "laps": 2,
+            },
+        }
+    )  # fmt: skip
+    nav, time = Navigator(mission), 0.0
+    stands = RobotState((19.984, 12.555), nav.reference(0.0).heading, 0.0)
+    while not nav.replans and not nav.finished:
+        _, nav = nav.step(stands, mission.world.unseen, time)
+        time += 0.1
+    assert nav.replans, nav.reason
+    (replan,) = nav.replans
+    assert replan.mode == "from_rest"
+    sharpest = 1.0 / (1.05 * mission.robot.turn_radius)
+    assert curvature_bound(replan.path)[0] <= sharpest + 1e-9
+    certificate = certify(replan.path, nav.world, 0.3 + nav.allowance, radius=0.5)
+    assert certificate.holds

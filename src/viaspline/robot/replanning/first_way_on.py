@@ -6,6 +6,7 @@ Tested through ``robot/test_navigator`` and ``robot/replanning/test_decide``.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -39,6 +40,9 @@ TURN_BACK_SAMPLES = 129
 NEARBY_WORK_S = 3.2
 """What a robot that stands spends before it lays all of its path anew [s of the reference machine],
 if a search nearby comes on."""
+
+WIDER = (1.15, 1.05)
+"""So many times as wide are the turns of a path that leaves steering to correct with, in order."""
 
 MAX_SHARE_BEFORE = 0.2
 """A part of a search that was stopped had a step for itself if no more was spent before."""
@@ -98,7 +102,8 @@ def first_candidate(
             )
             candidate = timed(context, mode, solution)
             if candidate is None and stage == LAST_STAGE:
-                candidate = _awaited(context, solution)
+                candidate = _with_steering_left(context, world, skip)
+                candidate = candidate or _awaited(context, solution)
         except UnfinishedSearchError:
             raise
         except SpentBudgetError as error:
@@ -123,6 +128,36 @@ def first_candidate(
         if candidate is not None and not _turns_back(context, solution) and worth(candidate):
             return candidate
     raise AssertionError("the last stage of a search finds something or says why there is nothing")
+
+
+def _with_steering_left(
+    context: ReplanContext, world: World, skip: Collection[int]
+) -> PathCandidate | None:
+    """A path from rest with wider turns, for a robot that can't follow the one that was found.
+
+    Where a path is as sharp as its wheels can be turned, it has no steering left to correct with,
+    however slow it is.
+
+    Returns:
+        None if it could follow that with what it has left, or if there is no such path.
+    """
+    requirements = context.requirements
+    if context.task.model is None or requirements.turn_radius is None:
+        return None
+    for times in WIDER:
+        radius = times * requirements.turn_radius
+        wider = replace(context, requirements=replace(requirements, turn_radius=radius))
+        lay = partial(_laid, wider, LAST_STAGE[0], context.stop, world, skip)
+        asked = ("laid wider", context.stop, world, context.schedule.path, frozenset(skip))
+        try:
+            candidate = timed(context, "from_rest", wider.requirements.once(asked, lay))
+        except SpentBudgetError:
+            raise
+        except PlanningError:
+            continue  # it has no room for that
+        if candidate is not None:
+            return candidate
+    return None
 
 
 def _awaited(context: ReplanContext, solution: Solution) -> PathCandidate | None:
