@@ -39,7 +39,7 @@ from viaspline.robot.yielding.broken_premises import broken_premises
 from viaspline.robot.yielding.foreseen import foreseen
 from viaspline.robot.yielding.give_way import give_way
 from viaspline.robot.yielding.held_up import held_up, rests
-from viaspline.robot.yielding.may_come import sight_of
+from viaspline.robot.yielding.may_come import WhatMayCome, sight_of
 from viaspline.robot.yielding.stays_put import stays_put
 from viaspline.robot.yielding.stoppable import kept_to_path, stoppable
 
@@ -243,8 +243,9 @@ def _kept_stoppable(now: _StepSoFar, undecided: _StepSoFar) -> _StepSoFar:
     if robot.moving is None:
         return now
     sight = sight_of(robot, now.inputs.sensed, now.inputs.measured, now.time)
-    schedule = stoppable(now.task, now.progress, now.knowledge, now.proven, now.schedule, sight)
-    is_put = stays_put(now.task, now.progress, now.knowledge, schedule, sight)
+    coming = WhatMayCome(now.knowledge, robot.moving.max_speed_mps, sight)
+    schedule = stoppable(now.task, now.progress, now.knowledge, now.proven, now.schedule, coming)
+    is_put = stays_put(now.task, now.progress, schedule, coming)
     schedule = replace(schedule, stays_put=is_put)
     if schedule.path is now.schedule.path:
         return replace(now, schedule=schedule)

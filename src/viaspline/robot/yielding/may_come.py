@@ -6,6 +6,7 @@ Tested through ``robot/yielding/test_stoppable``.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -59,21 +60,31 @@ def sight_of(robot: RobotSpec, sensed: object, measured: RobotState, time: float
     return Sight(measured.position, time, reach)
 
 
-def may_come(knowledge: Knowledge, top_speed: float, sight: Sight) -> PassivePremises:
+@dataclass(frozen=True, eq=False)
+class WhatMayCome:
     """What may come, by all that is known and what a look has shown.
 
-    Args:
+    Attributes:
         knowledge: All that is known, with what was just seen.
         top_speed: Nothing that isn't on the map is faster [m/s].
         sight: What the look has shown.
     """
-    tracks = knowledge.hits.tracks if knowledge.hits is not None else ()
-    told = knowledge.tracked.tracks if knowledge.tracked is not None else ()
-    strict = Foresight(top_speed=top_speed, accel=ANY_ACCEL_MPS2)
-    return PassivePremises(
-        foretold((*tracks, *told), sight.time, strict), sight.time, top_speed, sight.eye,
-        sight.reach, sight.mouths, knowledge.charted_moving,
-    )  # fmt: skip
+
+    knowledge: Knowledge
+    top_speed: float
+    sight: Sight
+
+    @cached_property
+    def premises(self) -> PassivePremises:
+        """Against which passive safety is proven: put together once, where it is asked for."""
+        knowledge, sight = self.knowledge, self.sight
+        tracks = knowledge.hits.tracks if knowledge.hits is not None else ()
+        told = knowledge.tracked.tracks if knowledge.tracked is not None else ()
+        strict = Foresight(top_speed=self.top_speed, accel=ANY_ACCEL_MPS2)
+        return PassivePremises(
+            foretold((*tracks, *told), sight.time, strict), sight.time, self.top_speed, sight.eye,
+            sight.reach, sight.mouths, knowledge.charted_moving,
+        )  # fmt: skip
 
 
 def kept_to_what_comes(task: DriveTask) -> float:

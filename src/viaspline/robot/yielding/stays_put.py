@@ -13,24 +13,20 @@ import math
 from viaspline.kernels.tracking.control_law import MAX_SPOT_SPEED_MPS
 from viaspline.machine.settling import settling_time
 from viaspline.robot.navigation.drive_task import DriveTask
-from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
-from viaspline.robot.yielding.may_come import Sight, kept_to_what_comes, may_come
+from viaspline.robot.yielding.may_come import WhatMayCome, kept_to_what_comes
 from viaspline.trajectory.passive_safety import touched_from
 
 
-def stays_put(
-    task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule, sight: Sight
-) -> bool:
+def stays_put(task: DriveTask, progress: Progress, schedule: Schedule, coming: WhatMayCome) -> bool:
     """Whether something may touch a robot that rests before it would stand again.
 
     Args:
         task: What is asked of the drive.
         progress: How far it has come.
-        knowledge: All that is known, with what was just seen.
         schedule: What it means to do.
-        sight: What this look has shown.
+        coming: What may come by this look.
 
     Returns:
         Never for one that follows exactly, and without passive safety.
@@ -41,8 +37,8 @@ def stays_put(
     distance, speed, accel = (float(x) for x in schedule.trajectory.state_at(progress.time))
     if speed > 0.0 or accel != 0.0:
         return False
-    premises = may_come(knowledge, things.max_speed_mps, sight)
     model, period = controller.model, controller.period
     lasts = model.delay + settling_time(model, MAX_SPOT_SPEED_MPS, period)
     keep = kept_to_what_comes(task)
-    return touched_from(schedule.path, distance, sight.time, lasts, premises, keep) < math.inf
+    premises, begin = coming.premises, coming.sight.time
+    return touched_from(schedule.path, distance, begin, lasts, premises, keep) < math.inf

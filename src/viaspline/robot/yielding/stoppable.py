@@ -29,7 +29,7 @@ from viaspline.robot.yielding.certified_stop import (
     stay_meant,
 )
 from viaspline.robot.yielding.held_up import rests
-from viaspline.robot.yielding.may_come import Sight, kept_to_what_comes, may_come
+from viaspline.robot.yielding.may_come import WhatMayCome, kept_to_what_comes
 from viaspline.tracks.patience import FROZEN, MAX_FROZEN_S, UNSEEING
 from viaspline.trajectory.passive_premises import SAME_PLACE_M
 from viaspline.trajectory.passive_safety import FIRST_STEPS_M, stop_of
@@ -55,7 +55,7 @@ def stoppable(
     knowledge: Knowledge,
     before: Schedule,
     after: Schedule,
-    sight: Sight,
+    coming: WhatMayCome,
 ) -> Schedule:
     """A schedule by which the robot is at rest before anything that it may meet touches it.
 
@@ -73,7 +73,7 @@ def stoppable(
         knowledge: All that is known, with what was just seen.
         before: What it meant to do before this look, along distances as they count now.
         after: What it would do if nothing could come.
-        sight: What this look has shown.
+        coming: What may come by this look.
     """
     robot = task.mission.robot
     things = robot.moving
@@ -95,7 +95,6 @@ def stoppable(
     if leaves > now + task.reaction:
         stop = braking(progress.distance, 0.0, brake, now)
         return replace(_freed(meant), trajectory=stop, gives_way=True, waits_for_gap=True)
-    premises = may_come(knowledge, things.max_speed_mps, sight)
     keep = kept_to_what_comes(task)
     upper = _in_even_pieces(meant.trajectory, leaves, brake)
     hold = STAY_S if meant.is_round else task.mission.route.hold_s
@@ -105,7 +104,9 @@ def stoppable(
     settle = 0.0
     if task.model is not None and progress.controller is not None:
         settle = settled_after_law(task.model, brake, progress.controller.period)
-    asked = StopAsked(meant.path, upper, premises, keep, limits, leaves, stay, proven, settle)
+    asked = StopAsked(
+        meant.path, upper, coming.premises, keep, limits, leaves, stay, proven, settle
+    )
     law = certified_stop(asked)
     if law is None:
         law = stop_of(before.trajectory, now, brake)
