@@ -284,14 +284,7 @@ def _plain(refusal: PlanningError | str) -> str:
 
 
 def _hold(context: ReplanContext, reason: str) -> Decision:
-    """Go no farther than where there is room to turn away; give up after a long stand.
-
-    Who went on for as long as the path is clear would use up the room that it has.
-
-    Args:
-        context: The robot, with what is in its way.
-        reason: Why there is no way on.
-    """
+    """Go no farther than where there is room to turn away; give up after a long stand."""
     time, wait = context.progress.time, context.schedule.wait
     since = time if wait is None or context.speed > 0.0 else wait.since
     if time - since >= MAX_STAND_S:
