@@ -99,6 +99,7 @@ def there_and_back(mirrored: bool) -> vs.Plan:
 
 def test_where_left_is_right_a_robot_turns_back_at_a_via_point_as_well():
     plan, image = there_and_back(mirrored=False), there_and_back(mirrored=True)
-    assert image.path.length == pytest.approx(plan.path.length, rel=1e-6)
-    assert image.trajectory.duration == pytest.approx(plan.trajectory.duration, rel=1e-6)
+    # As near as strips come to rest, from the turns that either was laid with.
+    assert image.path.length == pytest.approx(plan.path.length, rel=1e-4)
+    assert image.trajectory.duration == pytest.approx(plan.trajectory.duration, rel=1e-4)
     assert plan.path.length < 34.5

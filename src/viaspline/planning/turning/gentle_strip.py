@@ -25,7 +25,8 @@ MOST_TENSIONS = 8  # that are tried
 MOST_RESTLESS = 1  # of them, at which places don't come to rest: no more are tried
 MOST_OTHERS = 2  # than the chosen one, that are laid where that can't be driven
 SHARP = 0.5  # of the sharpest curvature, from which on more is dearer
-LIMIT_PARTS = (0.9, 0.6)  # of the sharpest that may be, from which on more is dearer
+NEAR_LIMIT = 0.9  # of the sharpest that may be, from which on more is dearer
+LIMIT_PARTS = (NEAR_LIMIT, 0.6)  # the same, where it is laid in the end
 LEAST_BLUNTER = 0.01  # of the sharpest curvature, that has to be saved
 SETTLED, NEARLY_SETTLED = 0.02, 0.1  # of what is required: places move by less in the last round
 
@@ -51,7 +52,8 @@ def gentle_strips(
         search = _searched(strip, price)
         for tried in _promising(search):
             for one in _as_fine_as_it_rests(tried, price):
-                if one.is_settled and price.is_gentler(bending(one.spans)[0]):
+                time = price.time_of(one.spans, one.joints)
+                if one.is_settled and price.is_better(bending(one.spans)[0], time):
                     yield one.laid
         if _is_clear(search) and not search.may_be_taken_finer:
             return
@@ -79,12 +81,12 @@ def _is_clear(search: TensionSearch) -> bool:
 
 def _searched(strip: TenseStrip, price: RunPrice) -> TensionSearch:
     """The search for the tension of a strip, as far as it gets."""
-    search = TensionSearch(price)
+    search = TensionSearch(price, strip.run.length)
     if strip.has_kink:
         return search
     tension, restless = search.first / strip.run.length, 0
     for _ in range(MOST_TENSIONS):
-        moved = strip.settled(tension, NEARLY_SETTLED)
+        moved = _no_sharper(strip.settled(tension, NEARLY_SETTLED), tension, price)
         search = search.having(_tried(strip, moved, tension, price))
         restless += not (moved.is_settled or moved.has_kink)  # less tension draws to no kink
         following = search.following
@@ -92,6 +94,14 @@ def _searched(strip: TenseStrip, price: RunPrice) -> TensionSearch:
             break
         strip, tension = following
     return search
+
+
+def _no_sharper(strip: TenseStrip, tension: float, price: RunPrice) -> TenseStrip:
+    """A strip at a tension; moved so that it is no sharper than it may be, where that can be."""
+    if not bending(strip.spans)[1] > price.limit:
+        return strip
+    blunter = strip.settled(tension, NEARLY_SETTLED, NEAR_LIMIT * price.limit)
+    return blunter if blunter.is_settled else strip
 
 
 def _promising(search: TensionSearch) -> Iterator[Tried]:
@@ -121,9 +131,9 @@ def _as_fine_as_it_rests(chosen: Tried, price: RunPrice) -> Iterator[TenseStrip]
 def _blunter(fine: TenseStrip, tension: float, price: RunPrice) -> TenseStrip | None:
     """A strip that is less sharp where the robot slows down; None where that isn't sooner."""
     sharpest = bending(fine.spans)[1]
-    if not sharpest > price.slowing:
+    if not sharpest > price.pointed:
         return None
-    blunter = fine.settled(tension, SETTLED, max(price.slowing, SHARP * sharpest))
+    blunter = fine.settled(tension, SETTLED, max(price.pointed, SHARP * sharpest))
     if not blunter.is_settled or bending(blunter.spans)[1] > (1.0 - LEAST_BLUNTER) * sharpest:
         return None
     times = [price.time_of(one.spans, one.joints) for one in (blunter, fine)]

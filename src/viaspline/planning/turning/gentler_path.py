@@ -1,7 +1,4 @@
-"""A path that bends less than lines and turns, where a part of the time buys that.
-
-Tested through ``planning/methods/test_bent_gently``.
-"""
+"""A path that bends less than lines and turns, where a part of the time buys that."""
 
 from __future__ import annotations
 
@@ -12,6 +9,7 @@ import numpy as np
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.curve.measure import bending
 from viaspline.planning.checking.driving_time import driving_time
+from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.work_budget import STRIP_BODY_SPAN_S, STRIP_S, STRIP_SPAN_S
 from viaspline.planning.turning.bendable_run import BendableRun, LaidRun, RunsOfPath
@@ -107,12 +105,23 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
     Args:
         problem: What is to be driven.
         run: The run.
-        least: The least time in which it can be driven [s]; None: it is to take no longer than now.
+        least: The least time in which it can be driven [s], if that is known.
     """
-    before, sharpest = bending(run.laid.spans)
     is_short = run.length < LEAST_RUN * problem.requirements.required
-    if is_short or before * run.length < STRAIGHT:
+    if is_short or bending(run.laid.spans)[0] * run.length < STRAIGHT:
         return None
+    price = _price_of(problem, run, least)
+    for bent in _strips(run, problem, price):
+        peak = bending(bent.spans)[1]
+        is_round = peak * problem.requirements.outer_radius <= 1.0
+        is_sooner = price.time_of(bent.spans, bent.joints) <= price.sooner
+        if (peak <= price.sharp or (is_round and is_sooner)) and problem.is_drivable(bent.spans):
+            return bent
+    return None
+
+
+def _price_of(problem: DrivenProblem, run: BendableRun, least: float | None) -> RunPrice:
+    """What a run may be exchanged for; see ``_gentler_run``."""
     needs = problem.requirements
     pace, stands = needs.objective.pace, run.stands
 
@@ -121,23 +130,33 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
         rests[joints] = stands
         return driving_time(spans, pace, rests)
 
-    now = time(run.laid.spans, run.laid.joints)
-    known = now / (1.0 + GENTLE_SHARE) if least is None else least
+    before, sharpest = bending(run.laid.spans)
     least_radius = max(pace.widest_radius, (1.0 + SHARPER) * needs.outer_radius)
     fast = 1.0 / least_radius if pace.widest_radius > 0.0 else 0.0
     as_sharp = (1.0 + SHARPER) * max(sharpest, fast)
     own = max(needs.outer_radius, needs.turn_radius or 0.0)
-    slowing, limit = pace.slowing, max(as_sharp, 1.0 / own if own > 0.0 else np.inf)
+    pointed, limit = pace.slowing, max(as_sharp, 1.0 / own if own > 0.0 else np.inf)
     if needs.budget is not None:  # under way there is no time for it
-        slowing = limit = np.inf
-    price = RunPrice(time, now, before, known, slowing, as_sharp, limit)
-    for bent in _strips(run, problem, price):
-        peak = bending(bent.spans)[1]
-        is_round = peak * needs.outer_radius <= 1.0
-        is_sooner = time(bent.spans, bent.joints) <= price.sooner
-        if (peak <= as_sharp or (is_round and is_sooner)) and problem.is_drivable(bent.spans):
-            return bent
-    return None
+        pointed = limit = np.inf
+    return RunPrice(
+        time_of=time,
+        time=time(run.laid.spans, run.laid.joints),
+        bending=before,
+        least=_least_time(run, pace) if least is None else least,
+        slowing=pace.slowing,
+        pointed=pointed,
+        sharp=as_sharp,
+        limit=limit,
+    )
+
+
+def _least_time(run: BendableRun, pace: Pace) -> float:
+    """The time along straight lines through a run's via points and detours [s]."""
+    laid = run.laid
+    at = np.union1d(laid.joints, laid.detours)
+    places = np.concatenate((laid.spans[:, 0], laid.spans[-1:, 3]))[at]
+    lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    return float(lengths.sum()) / pace.speed
 
 
 def _strips(run: BendableRun, problem: DrivenProblem, price: RunPrice) -> Iterator[LaidRun]:

@@ -1,9 +1,8 @@
 """The search for the least tension at which a strip takes hardly longer than it must.
 
 The less tension, the less it bends and the longer it is. Where the robot drives corners at full
-speed, longer is later; where it slows down for them, wide turns are sooner up to a point.
-
-Tested through ``planning/methods/test_bent_gently``.
+speed, longer is later; where it slows down for them, wide turns are sooner up to a point: over the
+logarithm of the tension the time is a valley, whose floor is sought first.
 """
 
 from __future__ import annotations
@@ -29,6 +28,10 @@ NEAR_TENSION = 1.5  # of one that is too loose, at which the least that isn't is
 MOSTLY_SPENT, NEARLY_SPENT = 0.7, 0.8  # of what may be: enough of it
 WANTED, FORETOLD = 0.85, 0.93  # the same, that is aimed at
 LEAST_SPENT = 0.05  # the same, from which on a power of the tension tells
+LATE = 1.01  # of the least time: what takes longer is slowed down by corners
+SLOWED = 2.0  # over the radius that is driven at full speed: squared, a tension that is soon then
+MUCH_SOONER = 5e-3  # of the time, for which a run may bend more than what was laid
+LEAST_SOONER = 5e-4  # of the time, that has to be saved by another tension
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,7 @@ class RunPrice:
         bending: Of what was laid [1/m].
         least: No run on the same sides takes less time [s].
         slowing: Curvature beyond which the robot slows down [1/m], infinite where it never does.
+        pointed: Curvature beyond which a blunter run is tried as well [1/m], infinite if never.
         sharp: Curvature beyond which a run isn't taken unless it is sooner [1/m].
         limit: Curvature beyond which a run that is sharper than what was laid isn't taken [1/m].
     """
@@ -50,17 +54,19 @@ class RunPrice:
     bending: float
     least: float
     slowing: float
+    pointed: float
     sharp: float
     limit: float
 
     @property
     def sooner(self) -> float:
-        """The longest time in which a run is driven that is sooner than what was laid [s]."""
-        return (1.0 - TIME_KNOWN) * self.time
+        """The longest time in which a run is driven that is much sooner than what was laid [s]."""
+        return (1.0 - MUCH_SOONER) * self.time
 
-    def is_gentler(self, bending: float) -> bool:
-        """Whether a run with a bending [1/m] bends less than what was laid."""
-        return bending < (1.0 - LEAST_GENTLER) * self.bending
+    def is_better(self, bending: float, time: float) -> bool:
+        """Whether a run with a bending [1/m] bends less than what was laid, or is much sooner."""
+        is_gentler = bending < (1.0 - LEAST_GENTLER) * self.bending
+        return is_gentler or time <= self.sooner
 
 
 @dataclass(frozen=True)
@@ -86,10 +92,12 @@ class TensionSearch:
 
     Attributes:
         price: What the run may be exchanged for.
+        length: Of what was laid [m].
         tried: The tensest last.
     """
 
     price: RunPrice
+    length: float
     tried: tuple[Tried, ...] = ()
 
     def having(self, one: Tried) -> TensionSearch:
@@ -101,21 +109,27 @@ class TensionSearch:
         """The tension to begin with, times the length of what was laid [1/m].
 
         The bending of a strip that bends freely round a corner is its tension times what it is
-        longer than the corner.
+        longer than the corner. Where the robot slows down for corners tenser ones are sooner.
         """
+        if LATE * self.price.least < self.price.time and math.isfinite(self.price.slowing):
+            return (SLOWED * self.price.slowing) ** 2 * self.length
         over = max(self.price.time - self.price.least, LEAST_OVER * GENTLE_SHARE * self.price.time)
         return FIRST * self.price.bending * self.price.time / over
 
     @cached_property
     def chosen(self) -> Tried | None:
         """The least tension that takes no more than may be spent, if there is one."""
-        return next((one for one in self._gentler if self._spent(one) <= 1.0), None)
+        return next((one for one in self._better if self._spent(one) <= 1.0), None)
 
     @property
     def may_be_taken_finer(self) -> bool:
         """Whether one with more places may be taken, if nothing stands beside any: it is alike."""
         price = self.price
-        gentler = (one for one in self.tried if price.is_gentler((1 - FINER_GENTLER) * one.bending))
+        gentler = (
+            one
+            for one in self.tried
+            if price.is_better((1.0 - FINER_GENTLER) * one.bending, (1.0 - FINER_SOONER) * one.time)
+        )
         times = ((one, (1.0 - FINER_SOONER) * one.time) for one in gentler)
         return any(
             time <= price.sooner
@@ -129,27 +143,27 @@ class TensionSearch:
     @property
     def others(self) -> list[Tried]:
         """Those that bend less and are sooner than what was laid, but for the chosen one."""
-        sooner = (one for one in self._gentler if one.time < self.price.time)
+        sooner = (one for one in self._better if one.time < self.price.time)
         return sorted((one for one in sooner if one is not self.chosen), key=lambda one: one.time)
 
     @property
     def following(self) -> tuple[TenseStrip, float] | None:
         """With what to begin at which tension next; None where there is no need to."""
-        chosen, gentler = self.chosen, self._gentler
-        if not gentler:
+        chosen, better = self.chosen, self._better
+        if not better:
             return self.tried[0].strip, self.tried[0].tension / LOOSENED
-        if chosen is None or (chosen is gentler[-1] and self._may_be_sooner_tense):
-            return self._tenser(gentler[-1])
-        return self._looser(chosen)
+        if chosen is None:
+            return self._tenser(better[-1])
+        return (self._sooner if self._is_late else None) or self._looser(chosen)
 
     @cached_property
-    def _gentler(self) -> tuple[Tried, ...]:
-        return tuple(one for one in self.tried if self.price.is_gentler(one.bending))
+    def _better(self) -> tuple[Tried, ...]:
+        return tuple(one for one in self.tried if self.price.is_better(one.bending, one.time))
 
     @cached_property
     def _known(self) -> float:
         """What times are held against [s]: the least, if one is near it, else the least known."""
-        best = min([self.price.time, *(one.time for one in self._gentler)])
+        best = min([self.price.time, *(one.time for one in self._better)])
         return self.price.least if best <= (1.0 + GENTLE_SHARE) * self.price.least else best
 
     @property
@@ -165,28 +179,41 @@ class TensionSearch:
         return (one.time / self._known - 1.0) / GENTLE_SHARE
 
     @property
+    def _sooner(self) -> tuple[TenseStrip, float] | None:
+        """A tension that is likely to be sooner than any that was tried; None where none is."""
+        better = self._better
+        best = min(range(len(better)), key=lambda k: better[k].time)
+        soonest = better[best]
+        if best == len(better) - 1:
+            return self._tenser(soonest) if self._may_be_sooner_tense else None
+        if best == 0:
+            return None  # looser ones are tried anyway
+        return _at_lowest(better[best - 1], soonest, better[best + 1])
+
+    @property
     def _may_be_sooner_tense(self) -> bool:
-        """Whether a tenser one may be sooner by much: a looser one is later by much."""
-        gentler = self._gentler
-        if len(gentler) < 2 or not self._is_late or self._spent(gentler[-2]) <= 1.0:
+        """Whether one that is tenser than any that bends less may be sooner, and bend less too."""
+        better = self._better
+        if len(better) < 2:
+            return True
+        looser, tensest = better[-2:]
+        if tensest.time > (1.0 - LEAST_SOONER) * looser.time:
             return False
-        looser, tensest = gentler[-2:]
         steps = math.log(LOOSENED) / math.log(tensest.tension / looser.tension)
         foretold = tensest.bending * (tensest.bending / looser.bending) ** steps
-        return self.price.is_gentler(foretold)
+        return self.price.is_better(foretold, tensest.time)
 
     def _tenser(self, tensest: Tried) -> tuple[TenseStrip, float] | None:
         """Tenser than the tensest that bends less, less tense than what bends more."""
         tenser = [one for one in self.tried if one.tension > tensest.tension]
-        if tenser and self.chosen is not None:
-            return self._looser(self.chosen)
         if tenser:
             between = tenser[0].tension / tensest.tension
             is_near = between < NEAR_TENSION
             return None if is_near else (tensest.strip, tensest.tension * math.sqrt(between))
+        if self._is_late:
+            return tensest.strip, tensest.tension * LOOSENED
         over = (tensest.time / self.price.least - 1.0) / GENTLE_SHARE
-        step = max(over**2, LOOSENED) if self._is_late else (over / FORETOLD) ** 2
-        return tensest.strip, tensest.tension * min(step, STEPPED)
+        return tensest.strip, tensest.tension * min((over / FORETOLD) ** 2, STEPPED)
 
     def _looser(self, chosen: Tried) -> tuple[TenseStrip, float] | None:
         """Between what is chosen and what is too loose, or looser yet if that saves bending."""
@@ -198,7 +225,7 @@ class TensionSearch:
             between = chosen.tension / looser[-1].tension
             is_near = between < NEAR_TENSION or _saves_little(chosen, looser[-1])
             return None if is_near else (chosen.strip, self._between(looser[-1], chosen))
-        tenser = [one for one in self._gentler if one.tension > chosen.tension]
+        tenser = [one for one in self._better if one.tension > chosen.tension]
         if tenser and _saves_little(tenser[0], chosen):
             return None
         step = LOOSENED if self._is_late else min((FORETOLD / max(spent, 1e-6)) ** 2, STEPPED)
@@ -223,3 +250,22 @@ class TensionSearch:
 
 def _saves_little(one: Tried, looser: Tried) -> bool:
     return one.bending < (1.0 + LEAST_GENTLER) * looser.bending
+
+
+def _at_lowest(looser: Tried, soonest: Tried, tenser: Tried) -> tuple[TenseStrip, float] | None:
+    """Where a parabola of the time over the logarithm of the tension is lowest.
+
+    None where that is near to what was tried, or saves little.
+    """
+    low, high = (math.log(one.tension / soonest.tension) for one in (looser, tenser))
+    more = [(one.time - soonest.time) / soonest.time for one in (looser, tenser)]
+    slopes = more[0] / low, more[1] / high
+    bend = (slopes[1] - slopes[0]) / (high - low)
+    if not bend > 0.0:
+        return None
+    lowest = 0.5 * (high - slopes[1] / bend)
+    saved = bend * lowest**2
+    nearest = min(abs(lowest - low), abs(lowest), abs(high - lowest))
+    if saved < LEAST_SOONER or nearest < 0.5 * math.log(NEAR_TENSION):
+        return None
+    return soonest.strip, soonest.tension * math.exp(lowest)
