@@ -13,7 +13,7 @@ from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.gentler_path import gentler_path
 
 MOST_RIVALS = 3  # that are bent
-NEAR_TIED = 1.005  # what a rival costs, over what the best does: it may be the best when bent
+NEAR_TIED = 1.05  # what a rival costs, over what the best does: it may be the best when bent
 NEAR_TIED_IN_ZONES = 1.1  # where a little aside may be much slower
 LIKELY_SAVED = 1.0  # more of it than of the best may be saved by bending, of what that saved
 LEAST_GAIN = 1e-6  # of what a path costs, for which another is taken
