@@ -92,7 +92,7 @@ def test_a_robot_that_turns_on_the_spot_has_time_for_it_between_two_laps() -> No
     assert found.period > lap.trajectory.duration + 2.0
 
 
-@pytest.mark.parametrize("seed", [22, 142])
+@pytest.mark.parametrize("seed", [67, 163])
 def test_who_finds_no_time_is_timed_before_the_others(
     monkeypatch: pytest.MonkeyPatch, seed: int
 ) -> None:
