@@ -5,7 +5,7 @@ Tested through ``fleet/execution/test_fleet_navigator``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -98,6 +98,12 @@ class FleetProgressState:
             sets_out=self.sets_out.copy(),
             events=(),
         )
+
+    def delayed(self, robots: Sequence[int], seconds: float) -> FleetProgressState:
+        """As if some robots went on so much later than they can [s]."""
+        state = self.copied(self.time)
+        state.packed.begin[list(robots)] += seconds
+        return replace(state, events=self.events)
 
     def known(self, fleet: DrivenFleet) -> KnownFleet:
         """What reports are judged by."""

@@ -5,7 +5,7 @@ Tested through ``fleet/execution/test_replanned_fleets``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -168,18 +168,21 @@ class FleetUnderWay:
         return names[max(chosen, key=lambda r: (members[names[r]].priority, -r))]
 
     def joined(
-        self, member: FleetMember, event: FleetEvent, off_start: float = 0.0
-    ) -> FleetUnderWay:
+        self, member: FleetMember, event: FleetEvent, off_start: float = 0.0,
+        waiting: Sequence[int] = (),
+    ) -> FleetUnderWay:  # fmt: skip
         """With a robot that begins a path of its own now, in place of one of its name.
 
         Args:
             member: The robot.
             event: What is told of it.
             off_start: How far from its start it may be [m].
+            waiting: Who waits for it to set out, and goes on when it is gone.
         """
-        missions, fleet, state = self.known, self.fleet, self.state
+        missions, fleet = self.known, self.fleet
         member = _departing(member, max(member.mission.route.depart_s, self.now))
         plan = laid_now(fleet, member, self._sought(member.name, member.mission))
+        state = self.state.delayed(waiting, plan.trajectory.duration)
         let_in = LetIn(state.packed.progress, state.packed.promised, state.out)
         leaves = fleet.names.index(member.name) if member.name in fleet.names else None
         grown = grown_fleet(fleet, member, plan, off_start)
@@ -237,7 +240,14 @@ class FleetUnderWay:
         except GaveUpError:
             if self.fleet.rounds is None or not self.fleet.rounds[robot]:
                 raise
-        return self._without_its_laps(robot).joined(member, event, creeps)
+        waiting = self._waiting_for(robot)
+        return self._without_its_laps(robot).joined(member, event, creeps, waiting)
+
+    def _waiting_for(self, robot: int) -> list[int]:
+        """Who stands at a bar that is shut until a robot has passed."""
+        stuck, head = self.state.stuck(robot), self.state.packed.head
+        at_it = self.state.orders.packed.other[stuck] == robot
+        return np.flatnonzero((stuck >= 0) & (stuck == head) & at_it).tolist()
 
     def _without_its_laps(self, robot: int) -> FleetUnderWay:
         """With patrols counted back as if one that stands, and drives no more laps, weren't there.
