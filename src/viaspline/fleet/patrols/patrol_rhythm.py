@@ -93,7 +93,7 @@ def patrol_rhythm(
         >>> one_lap = {one.name: plan(one.mission) for one in fleet.members}
         >>> rhythm = patrol_rhythm(fleet.members, one_lap, 0.5)
         >>> rhythm.laps, rhythm.period < 1.1 * one_lap["b"].trajectory.duration
-        ({'a': 2, 'b': 1}, True)
+        ({'a': 3, 'b': 1}, True)
     """
     timing = _RoundTiming.of(members, laps, separation)
     period = timing.shortest
