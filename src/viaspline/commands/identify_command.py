@@ -63,7 +63,7 @@ def identify(
     max_yaw_rate: float | None, turn_radius: float | None, period: float | None,
     mission: Path | None, seed: int | None,
 ) -> None:  # fmt: skip
-    """Fit a robot's drive to a log of it: delay, lag, limits, noise, slip.
+    """Fit a robot's drive to a log: its delay, lag and limits.
 
     LOG is a CSV file with the columns time_s, x_m, y_m, heading_rad (or heading_deg),
     speed_command_mps and yaw_rate_command_radps, where a command holds from its row to the next; or
