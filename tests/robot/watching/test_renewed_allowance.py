@@ -132,7 +132,7 @@ def test_a_path_that_keeps_more_is_looked_for_while_it_brakes_where_it_takes_lon
     slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(renewed_allowance, "LAY_WORK_S", (0.0,))  # nothing is found at once
-    done = loop(Navigator(slalom_of(), warm=False), cart_of(0.15, 0.3), limit=200.0)
+    done = loop(Navigator(slalom_of(), warm=False), cart_of(0.2, 0.3), limit=200.0)
     assert "searches" in {event.data["outcome"] for event in deviations(done)}
     assert not {"stops"} & {event.data["outcome"] for event in deviations(done)}
     assert done.nav.reached

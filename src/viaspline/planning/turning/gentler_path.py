@@ -136,13 +136,16 @@ def _price_of(problem: DrivenProblem, run: BendableRun, least: float | None) -> 
     as_sharp = (1.0 + SHARPER) * max(sharpest, fast)
     own = max(needs.outer_radius, needs.turn_radius or 0.0)
     pointed, limit = pace.slowing, max(as_sharp, 1.0 / own if own > 0.0 else np.inf)
-    if needs.budget is not None:  # under way there is no time for it
+    now = time(run.laid.spans, run.laid.joints)
+    straight = _least_time(run, pace)
+    if needs.budget is not None:  # under way there is no time for more than bending it less
         pointed = limit = np.inf
+        straight = now / (1.0 + GENTLE_SHARE)
     return RunPrice(
         time_of=time,
-        time=time(run.laid.spans, run.laid.joints),
+        time=now,
         bending=before,
-        least=_least_time(run, pace) if least is None else least,
+        least=straight if least is None else least,
         slowing=pace.slowing,
         pointed=pointed,
         sharp=as_sharp,
