@@ -182,7 +182,8 @@ class FleetUnderWay:
         missions, fleet = self.known, self.fleet
         member = _departing(member, max(member.mission.route.depart_s, self.now))
         plan = laid_now(fleet, member, self._sought(member.name, member.mission))
-        state = self.state.delayed(waiting, plan.trajectory.duration)
+        delay = plan.trajectory.duration
+        state = self.state.delayed(waiting, delay) if waiting else self.state
         let_in = LetIn(state.packed.progress, state.packed.promised, state.out)
         leaves = fleet.names.index(member.name) if member.name in fleet.names else None
         grown = grown_fleet(fleet, member, plan, off_start)

@@ -52,8 +52,10 @@ def gentle_strips(
         search = _searched(strip, price)
         for tried in _promising(search):
             for one in _as_fine_as_it_rests(tried, price):
-                time = price.time_of(one.spans, one.joints)
-                if one.is_settled and price.is_better(bending(one.spans)[0], time):
+                if one.is_settled and (
+                    price.is_gentler(bending(one.spans)[0])
+                    or price.is_sooner(one.spans, one.joints)
+                ):
                     yield one.laid
         if _is_clear(search) and not search.may_be_taken_finer:
             return

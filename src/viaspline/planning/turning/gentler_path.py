@@ -108,20 +108,23 @@ def _gentler_run(problem: DrivenProblem, run: BendableRun, least: float | None) 
         least: The least time in which it can be driven [s], if that is known.
     """
     is_short = run.length < LEAST_RUN * problem.requirements.required
-    if is_short or bending(run.laid.spans)[0] * run.length < STRAIGHT:
+    curved = bending(run.laid.spans)
+    if is_short or curved[0] * run.length < STRAIGHT:
         return None
-    price = _price_of(problem, run, least)
+    price = _price_of(problem, run, curved, least)
     for bent in _strips(run, problem, price):
         peak = bending(bent.spans)[1]
         is_round = peak * problem.requirements.outer_radius <= 1.0
-        is_sooner = price.time_of(bent.spans, bent.joints) <= price.sooner
-        if (peak <= price.sharp or (is_round and is_sooner)) and problem.is_drivable(bent.spans):
+        is_taken = peak <= price.sharp or (is_round and price.is_sooner(bent.spans, bent.joints))
+        if is_taken and problem.is_drivable(bent.spans):
             return bent
     return None
 
 
-def _price_of(problem: DrivenProblem, run: BendableRun, least: float | None) -> RunPrice:
-    """What a run may be exchanged for; see ``_gentler_run``."""
+def _price_of(
+    problem: DrivenProblem, run: BendableRun, curved: tuple[float, float], least: float | None
+) -> RunPrice:
+    """What a run may be exchanged for; see ``_gentler_run``, and ``bending`` for *curved*."""
     needs = problem.requirements
     pace, stands = needs.objective.pace, run.stands
 
@@ -130,22 +133,23 @@ def _price_of(problem: DrivenProblem, run: BendableRun, least: float | None) -> 
         rests[joints] = stands
         return driving_time(spans, pace, rests)
 
-    before, sharpest = bending(run.laid.spans)
+    before, sharpest = curved
     least_radius = max(pace.widest_radius, (1.0 + SHARPER) * needs.outer_radius)
     fast = 1.0 / least_radius if pace.widest_radius > 0.0 else 0.0
     as_sharp = (1.0 + SHARPER) * max(sharpest, fast)
     own = max(needs.outer_radius, needs.turn_radius or 0.0)
     pointed, limit = pace.slowing, max(as_sharp, 1.0 / own if own > 0.0 else np.inf)
     now = time(run.laid.spans, run.laid.joints)
-    straight = _least_time(run, pace)
     if needs.budget is not None:  # under way there is no time for more than bending it less
         pointed = limit = np.inf
-        straight = now / (1.0 + GENTLE_SHARE)
+    if least is None:
+        is_under_way = needs.budget is not None
+        least = now / (1.0 + GENTLE_SHARE) if is_under_way else _least_time(run, pace)
     return RunPrice(
         time_of=time,
         time=now,
         bending=before,
-        least=straight if least is None else least,
+        least=least,
         slowing=pace.slowing,
         pointed=pointed,
         sharp=as_sharp,

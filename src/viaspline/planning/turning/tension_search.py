@@ -63,10 +63,17 @@ class RunPrice:
         """The longest time in which a run is driven that is much sooner than what was laid [s]."""
         return (1.0 - MUCH_SOONER) * self.time
 
+    def is_gentler(self, bending: float) -> bool:
+        """Whether a run with a bending [1/m] bends less than what was laid."""
+        return bending < (1.0 - LEAST_GENTLER) * self.bending
+
+    def is_sooner(self, spans: Floats, joints: Ints) -> bool:
+        """Whether a run is driven much sooner than what was laid; see ``time_of``."""
+        return self.time_of(spans, joints) <= self.sooner
+
     def is_better(self, bending: float, time: float) -> bool:
         """Whether a run with a bending [1/m] bends less than what was laid, or is much sooner."""
-        is_gentler = bending < (1.0 - LEAST_GENTLER) * self.bending
-        return is_gentler or time <= self.sooner
+        return self.is_gentler(bending) or time <= self.sooner
 
 
 @dataclass(frozen=True)

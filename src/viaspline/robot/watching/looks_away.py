@@ -73,12 +73,12 @@ def ways_to_path(
     side = -math.copysign(1.0, angle)
     headings = measured.heading + side * np.linspace(0.0, abs(angle), PLACES)
     aside = np.column_stack((np.sin(headings), -np.cos(headings)))
+    onward, here = heading_onward(path, distance), np.asarray(path.at_distance(distance))
+    ahead = np.array([math.cos(onward), math.sin(onward)])
     ways = []
     for times in WIDER:
         arc = np.array([x, y]) + side * times * radius * (aside - aside[0])
-        way = np.asarray(path.at_distance(distance))
-        onward = heading_onward(path, distance)
-        along = float((arc[-1] - way) @ np.array([math.cos(onward), math.sin(onward)]))
+        along = float((arc[-1] - here) @ ahead)
         beside = min(max(distance + along, 0.0), path.length)
         ways += [arc, way_back(path, beside, arc[-1], over)]
     return np.concatenate(ways)

@@ -140,14 +140,10 @@ def _set_askew(
     turned: float,
 ) -> tuple[Watch, Deviation]:
     """How one turns to its path that was set down looking another way: as it is, or not at all."""
-    kept, body, path = (
-        task.requirements.tracking_error,
-        task.requirements.outer_radius,
-        schedule.path,
-    )
+    kept, body = task.requirements.tracking_error, task.requirements.outer_radius
     over, radius = _convergence(task, task.limits.max_speed), task.mission.robot.turn_radius
     assert radius is not None
-    places = ways_to_path(path, place.distance, measured, turned, radius, over)
+    places = ways_to_path(schedule.path, place.distance, measured, turned, radius, over)
     room = room_on(knowledge.world, places)
     off = max(2.0 * radius * math.sin(0.5 * turned) ** 2, place.off)
     returns = is_way_back_clear(room, body + task.requirements.clearance, body)
