@@ -10,7 +10,7 @@ import math
 from rich.console import Group, RenderableType
 
 from viaspline.report.space.heights_json import heights_rows
-from viaspline.report.terminal.plan_tables import drivability_rows, ledger_table
+from viaspline.report.terminal.plan_tables import drivability_rows, ledger_table, station_rows
 from viaspline.report.terminal.run_tables import encounter_rows
 from viaspline.report.terminal.terminal_tables import MAX_LIST_LINES, Rows, facts_table
 from viaspline.report.units import asked_words, down, metres, place, seconds
@@ -58,11 +58,7 @@ def spatial_plan_rows(plan: SpatialPlan) -> Rows:
     radius = plan.sharpest_radius
     rows.append(("sharpest radius", "straight" if math.isinf(radius) else metres(radius)))
     rows += drivability_rows(plan.drivability)
-    stations = [s for s in plan.trajectory.stations if s.dwell > 0]
-    if stations:
-        rows.append(
-            ("stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES]))
-        )
+    rows += station_rows(plan.trajectory)
     return rows
 
 

@@ -20,6 +20,7 @@ from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.report.summary import map_words
 from viaspline.report.terminal.terminal_tables import MAX_LIST_LINES, Rows, facts_table, few_names
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
+from viaspline.trajectory.trajectory import Trajectory
 
 LEAST_ROOM_M = 0.005  # by which two ways on one side are told apart
 MAX_REASONS = 4  # why a path drives roughly, before the rest is only counted
@@ -60,11 +61,7 @@ def plan_rows(plan: Plan) -> Rows:
     rows.append(("largest curvature", curvature(1.0 / plan.drivability.sharpest_radius)))
     rows += drivability_rows(plan.drivability)
     rows += moving_rows(plan)
-    stations = [s for s in plan.trajectory.stations if s.dwell > 0]
-    if stations:
-        rows.append(
-            ("stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES]))
-        )
+    rows += station_rows(plan.trajectory)
     return rows
 
 
@@ -78,6 +75,13 @@ def preferred_words(weighed: PreferredClearance) -> str:
             cost = f"{one.duration - weighed.duration:+.1f} s{', taken' if one.taken else ''}"
         words.append(f"{one.clearance:.2f} m more: {cost}")
     return "; ".join(words)
+
+
+def station_rows(law: Trajectory) -> Rows:
+    """Where a robot stands by a time law, and for how long; nothing if it stops nowhere."""
+    stations = [station for station in law.stations if station.dwell > 0]
+    words = ", ".join(f"{one.name} {one.dwell:g} s" for one in stations[:MAX_LIST_LINES])
+    return [("stations", words)] if stations else []
 
 
 def drivability_rows(drive: Drivability) -> list[tuple[str, str]]:
