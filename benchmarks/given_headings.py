@@ -20,7 +20,7 @@ import numpy as np
 import viaspline as vs
 from viaspline.machine.machine_limits import limits_of
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.replan import reflex
+from viaspline.planning.replanning.replan import reflex
 from viaspline.world.world import World
 
 SHARP_M = 0.5

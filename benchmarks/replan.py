@@ -18,7 +18,7 @@ from worlds import GOAL, RADIUS, START
 
 import viaspline as vs
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.replan import planned, reflex
+from viaspline.planning.replanning.replan import planned, reflex
 
 AHEAD = 20.0  # how far ahead of the obstacle the robot is when it sees it [m]
 

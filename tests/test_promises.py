@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 import viaspline as vs
 from viaspline.curve.certificate import PROOF_SLACK_M
-from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.replanning import replan
 
 Oracle = Callable[..., Any]
 Floats = NDArray[np.float64]

@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.curve.path import Path
-from viaspline.planning import replan
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.replanning import replan
 
 seeds = st.integers(0, 1_000_000)
 REQUIRED_M = 1.0  # radius and clearance of every robot here

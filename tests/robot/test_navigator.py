@@ -16,8 +16,8 @@ from viaspline.mission.model import Mission
 from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.replanning import replan
 from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import LidarSensor

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.mission.spline_spec import SplineSpec
-from viaspline.planning import replan
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.replanning import replan
 
 NEAR_M = 1.0
 TAUT = SplineSpec(tension=0.0)

@@ -9,7 +9,7 @@ import pytest
 
 import viaspline as vs
 from viaspline.planning.problem.work_budget import LAW_AMONG_S
-from viaspline.planning.swerve import Swerving
+from viaspline.planning.replanning.swerve import Swerving
 from viaspline.robot.navigation import law_past
 from viaspline.robot.navigation.law_past import LAW_WORK_S
 from viaspline.robot.navigator import Navigator

@@ -1,6 +1,6 @@
 """The result of every search for a way.
 
-Tested through ``planning/test_replan``.
+Tested through ``planning/replanning/test_replan``.
 """
 
 from __future__ import annotations

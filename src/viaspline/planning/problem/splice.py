@@ -5,7 +5,7 @@ So the old curve runs out first: a cubic that takes over its position, heading a
 whose second derivative falls linearly to nothing at its end. From there the new spline goes on
 with the heading that is reached.
 
-Tested through ``planning/test_replan``.
+Tested through ``planning/replanning/test_replan``.
 """
 
 from __future__ import annotations

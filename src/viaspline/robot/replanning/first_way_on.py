@@ -13,9 +13,9 @@ import numpy as np
 
 from viaspline.errors import GaveUpError, PlanningError
 from viaspline.machine.allowance import TRACKING_REMEDY
-from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.work_budget import SpentBudgetError
+from viaspline.planning.replanning import replan
 from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.robot.navigation.pending_search import (
     FIRST_STAGE,

@@ -12,11 +12,11 @@ import numpy as np
 from viaspline.curve.path import Path, PathVia
 from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
-from viaspline.planning import replan
 from viaspline.planning.checking.conflicts import CLEAR, turn_conflict
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.sides_ahead import spans_on_wrong_side
+from viaspline.planning.replanning import replan
+from viaspline.planning.replanning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.schedule import ReducedClearance
 from viaspline.robot.perception.body_room import room_along
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed

@@ -14,7 +14,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.checking.conflicts import CLEAR, conflicts_within
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import WorkBudget
-from viaspline.planning.sides_ahead import spans_on_wrong_side
+from viaspline.planning.replanning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.pending_search import FIRST_STAGE

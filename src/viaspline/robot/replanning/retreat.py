@@ -17,10 +17,10 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.machine.turns_on_spot import corners
-from viaspline.planning import replan
 from viaspline.planning.checking.conflicts import CLEAR, turn_conflict
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
+from viaspline.planning.replanning import replan
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.replanning.path_candidate import timed
 from viaspline.robot.replanning.recovery import by_way_of, with_less_until

@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.errors import PlanningError
-from viaspline.planning import replan
 from viaspline.planning.problem.work_budget import SpentBudgetError
+from viaspline.planning.replanning import replan
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge

@@ -14,8 +14,8 @@ import numpy as np
 from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.departure import rolling, standing
-from viaspline.planning.swerve import Swerving, may_swerve
+from viaspline.planning.replanning.departure import rolling, standing
+from viaspline.planning.replanning.swerve import Swerving, may_swerve
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.replanning.path_candidate import PathCandidate, first_law, timed
 from viaspline.robot.replanning.replan_context import ReplanContext

@@ -16,8 +16,8 @@ from typing import TypeAlias
 
 from viaspline.errors import PlanningError
 from viaspline.mission.shapes.obstacle import Side
-from viaspline.planning import replan
 from viaspline.planning.problem.work_budget import LAW_AMONG_S, WorkBudget
+from viaspline.planning.replanning import replan
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.yielding.meeting_ahead import meeting_ahead

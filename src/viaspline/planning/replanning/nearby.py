@@ -1,6 +1,6 @@
 """A path that is sought in what is near first: what stands elsewhere costs it nothing.
 
-Tested through ``planning/test_replan`` and ``robot/navigation/test_rounds``.
+Tested through ``planning/replanning/test_replan`` and ``robot/navigation/test_rounds``.
 """
 
 from __future__ import annotations

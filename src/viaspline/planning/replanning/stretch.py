@@ -1,6 +1,6 @@
 """What a re-plan lays anew: a stretch of the path that is driven, and its via points.
 
-Tested through ``planning/test_replan``.
+Tested through ``planning/replanning/test_replan``.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from viaspline.planning.problem.via_sequence import (
     direction,
     span_slack,
 )
-from viaspline.planning.sides_ahead import leg_ends, whole_legs
+from viaspline.planning.replanning.sides_ahead import leg_ends, whole_legs
 from viaspline.world.world import World
 
 PASSED_M = 1e-6  # via points nearer along the path than this have been passed

@@ -1,6 +1,6 @@
 """How an old path is left for a new one: while rolling on it, or from a standstill.
 
-Tested through ``planning/test_replan``.
+Tested through ``planning/replanning/test_replan``.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, turn_co
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
 from viaspline.planning.problem.via_sequence import RouteVia
-from viaspline.planning.stretch import LEAST_RUN_OUT_M, Stretch, room_to_run_out
+from viaspline.planning.replanning.stretch import LEAST_RUN_OUT_M, Stretch, room_to_run_out
 from viaspline.world.world import World
 
 AT_REST = 0.05  # a run-out from a standstill, over that of a rolling robot

@@ -19,17 +19,17 @@ from viaspline.errors import NoPathError, PlanningError
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.checking.hairpin import has_hairpin
-from viaspline.planning.departure import (
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import SpentBudgetError
+from viaspline.planning.replanning.departure import (
     BlockedTurnError,
     Leave,
     rolling,
     standing,
     straight_on,
 )
-from viaspline.planning.joined_stretch import solution_from
-from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.stretch import (
+from viaspline.planning.replanning.joined_stretch import solution_from
+from viaspline.planning.replanning.stretch import (
     PASSED_M,
     Stretch,
     blocked_runs,
@@ -37,8 +37,8 @@ from viaspline.planning.stretch import (
     stretch_round,
     stretches_on_round,
 )
-from viaspline.planning.taking_up import best_taken_up
-from viaspline.planning.way_ahead import WayAhead
+from viaspline.planning.replanning.taking_up import best_taken_up
+from viaspline.planning.replanning.way_ahead import WayAhead
 from viaspline.world.world import World
 
 LeadRound = Callable[[WayAhead, NDArray[np.intp]], Solution]

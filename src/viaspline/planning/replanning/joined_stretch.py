@@ -17,27 +17,27 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import is_clear, proven
-from viaspline.planning.departure import (
+from viaspline.planning.plan_path import lay_path
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.problem.work_budget import SpentBudgetError
+from viaspline.planning.replanning.departure import (
     BlockedTurnError,
     Departure,
     Leave,
     refuse_blocked_turn,
     rolling,
 )
-from viaspline.planning.nearby import lay_nearby
-from viaspline.planning.plan_path import lay_path
-from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.via_sequence import ViaSequence
-from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.rejoining import Rejoin, Rejoining, merging
-from viaspline.planning.routing.leg_errors import BlockedLegError
-from viaspline.planning.sides_ahead import refuse_wrong_side
-from viaspline.planning.stretch import (
+from viaspline.planning.replanning.nearby import lay_nearby
+from viaspline.planning.replanning.rejoining import Rejoin, Rejoining, merging
+from viaspline.planning.replanning.sides_ahead import refuse_wrong_side
+from viaspline.planning.replanning.stretch import (
     PASSED_M,
     Stretch,
     refuse_the_end,
     sequence_through,
 )
+from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.world.world import World
 
 RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances

@@ -10,8 +10,8 @@ from viaspline.machine.turns_on_spot import corners
 from viaspline.planning.checking.driving_time import driving_time
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import WorkBudget
-from viaspline.planning.replan import reflex
-from viaspline.planning.taking_up import LEFT_S
+from viaspline.planning.replanning.replan import reflex
+from viaspline.planning.replanning.taking_up import LEFT_S
 
 
 def mission(*stops: tuple[float, float], optimise: str = "time") -> vs.Mission:

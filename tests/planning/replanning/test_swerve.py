@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
-from viaspline.planning.departure import rolling, standing
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.swerve import Swerving, may_swerve
+from viaspline.planning.replanning.departure import rolling, standing
+from viaspline.planning.replanning.swerve import Swerving, may_swerve
 
 
 def planned(*known: dict[str, Any], **robot: Any) -> tuple[vs.Plan, Requirements]:

@@ -1,6 +1,6 @@
 """How an old path is taken up again: while rolling onto it, or from where the robot stands on it.
 
-Tested through ``planning/test_taking_up``.
+Tested through ``planning/replanning/test_taking_up``.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ import numpy as np
 
 from viaspline.curve.path import Path, PathVia
 from viaspline.kernels.arrays import Floats
-from viaspline.planning.departure import refuse_blocked, refuse_no_room
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import run_out
 from viaspline.planning.problem.via_sequence import RouteVia
-from viaspline.planning.stretch import Stretch, room_to_run_out
+from viaspline.planning.replanning.departure import refuse_blocked, refuse_no_room
+from viaspline.planning.replanning.stretch import Stretch, room_to_run_out
 from viaspline.world.world import World
 
 

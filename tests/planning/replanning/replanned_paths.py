@@ -11,7 +11,7 @@ import viaspline as vs
 from viaspline.curve.path import Path
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.replan import from_rest, planned, reflex
+from viaspline.planning.replanning.replan import from_rest, planned, reflex
 
 Oracle = Callable[..., Any]
 MODES = [reflex, planned, from_rest]

@@ -8,7 +8,7 @@ from replanned_paths import MODES, Oracle, check, disc, served, start
 import viaspline as vs
 from viaspline.curve.path import Path, PathVia
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.replan import from_rest, from_rest_nearby, planned, reflex
+from viaspline.planning.replanning.replan import from_rest, from_rest_nearby, planned, reflex
 
 EIGHT = [[20, 20], [80, 80], [80, 20], [20, 80], [20, 20], [80, 80]]
 

@@ -18,12 +18,12 @@ from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
-from viaspline.planning.departure import Departure, Leave
-from viaspline.planning.joined_stretch import head_until, solution_from, vias_until
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay
-from viaspline.planning.stretch import (
+from viaspline.planning.replanning.departure import Departure, Leave
+from viaspline.planning.replanning.joined_stretch import head_until, solution_from, vias_until
+from viaspline.planning.replanning.stretch import (
     Stretch,
     is_round,
     leaving_place,

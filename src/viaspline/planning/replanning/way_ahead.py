@@ -1,6 +1,6 @@
 """The rest of a path that is being driven, as a re-plan finds it.
 
-Tested through ``planning/test_replan``.
+Tested through ``planning/replanning/test_replan``.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
-from viaspline.planning.departure import Leave
-from viaspline.planning.joined_stretch import joined
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.rejoining import Rejoin, merging
-from viaspline.planning.sides_ahead import spans_on_wrong_side
-from viaspline.planning.stretch import (
+from viaspline.planning.replanning.departure import Leave
+from viaspline.planning.replanning.joined_stretch import joined
+from viaspline.planning.replanning.rejoining import Rejoin, merging
+from viaspline.planning.replanning.sides_ahead import spans_on_wrong_side
+from viaspline.planning.replanning.stretch import (
     PASSED_M,
     Stretch,
     leaving_place,

@@ -18,7 +18,7 @@ from viaspline.curve.bending import curvature_bound
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.problem.splice import run_out
 from viaspline.planning.problem.work_budget import WorkBudget
-from viaspline.planning.replan import from_rest, reflex
+from viaspline.planning.replanning.replan import from_rest, reflex
 from viaspline.robot.replanning.deadline import STEP_WORK_S
 
 

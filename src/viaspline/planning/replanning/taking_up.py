@@ -8,7 +8,7 @@ the gentler one, so that both are laid where the first is late.
 A robot that stands at the via point in any case may turn there: where it comes from another side
 than it did on the old path, that spares it a loop before its station.
 
-Tested through ``planning/test_taking_up``.
+Tested through ``planning/replanning/test_taking_up``.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from viaspline.curve.path import Path, PathVia
 from viaspline.errors import PlanningError
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.driving_time import driving_time
-from viaspline.planning.departure import rolling
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import WorkBudget
-from viaspline.planning.rejoining import Rejoin, may_turn, merging, turning
-from viaspline.planning.stretch import Stretch
-from viaspline.planning.way_ahead import WayAhead
+from viaspline.planning.replanning.departure import rolling
+from viaspline.planning.replanning.rejoining import Rejoin, may_turn, merging, turning
+from viaspline.planning.replanning.stretch import Stretch
+from viaspline.planning.replanning.way_ahead import WayAhead
 
 LITTLE = 1e-2
 """Part of its time that a path may lose to slow turns, or of its length by which it may be longer
