@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import math
 import re
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
 
-from viaspline.errors import Fault, MissionError, MissionWarning, with_article
+from viaspline.caller_warning import warn_caller
+from viaspline.errors import Fault, MissionError, with_article
 from viaspline.formats.fences import fence_areas
 from viaspline.formats.file_faults import fault_at, refusal
 from viaspline.formats.flights import ground_of, not_flown, route_in_space
@@ -134,7 +134,7 @@ def _frame(itinerary: Itinerary, stops: Sequence[Stop]) -> LocalFrame:
 def _warn(source: str, notes: Sequence[tuple[str, str]]) -> None:
     for kind, where in notes:
         message = f"{source}: {where}: {kind}" if where else f"{source}: {kind}"
-        warnings.warn(f"{message} (can't be represented in a mission)", MissionWarning, 5)
+        warn_caller(f"{message} (can't be represented in a mission)")
 
 
 def _aside(notes: Sequence[tuple[str, str]]) -> str:

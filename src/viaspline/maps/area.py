@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
 
 import numpy as np
 
-from viaspline.errors import MissionWarning
+from viaspline.caller_warning import warn_caller
 from viaspline.kernels.arrays import Floats
 
 if TYPE_CHECKING:
@@ -110,4 +109,4 @@ def with_area(polygons: Iterable[Polygon]) -> list[Polygon]:
 def warn_of_nothing(path: Path, what: str) -> None:
     """Say that something has no area and is left out."""
     message = f"{path}: {what} has no area (can't be represented in a mission)"
-    warnings.warn(message, MissionWarning, 2)
+    warn_caller(message)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import warnings
-
-from viaspline.errors import MissionWarning
+from viaspline.caller_warning import warn_caller
 from viaspline.mission.mission_parts import MissionParts
 
 
@@ -24,7 +22,7 @@ def warn_of_headings(mission: MissionParts) -> None:
                 f"route.{name}.heading_deg isn't kept, as tension 1 (slack 0) makes lines: give "
                 "a tension below 1, or robot.min_turn_radius_m"
             )
-            warnings.warn(words, MissionWarning, 4)
+            warn_caller(words)
 
 
 def _slack_at_ends(mission: MissionParts) -> tuple[float, float] | None:

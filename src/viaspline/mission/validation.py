@@ -5,13 +5,13 @@ Tested through ``mission/test_model``.
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from pydantic import ModelWrapValidatorHandler, ValidationError
 
-from viaspline.errors import MissionError, MissionWarning
+from viaspline.caller_warning import warn_caller
+from viaspline.errors import MissionError
 from viaspline.mission.kept_headings import warn_of_headings
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.partial_mission import PartialMission
@@ -85,7 +85,7 @@ def warn_of_jumps(world: WorldSpec) -> None:
 
     words = jumps_in_words(obstacles)
     if words is not None:
-        warnings.warn(words, MissionWarning, 3)
+        warn_caller(words)
 
 
 def validated(data: Any, handler: ModelWrapValidatorHandler[Modelled]) -> Modelled:

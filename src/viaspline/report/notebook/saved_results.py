@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
-from viaspline.errors import MissionWarning, OutputError, with_article
+from viaspline.caller_warning import warn_caller
+from viaspline.errors import OutputError, with_article
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.saved.load_fleet_plan import PLANNED_FLEET_NAME
@@ -169,7 +169,7 @@ def _beside(file: Path, contents: Callable[[], Contents], remedy: str) -> Conten
         return contents()
     except OutputError as error:
         words = f"{file} isn't written: {error}; {remedy}"
-        warnings.warn(words, MissionWarning, stacklevel=6)
+        warn_caller(words)
         with suppress(OSError):
             file.unlink(missing_ok=True)  # that of an earlier plan isn't this one's
         return {}
