@@ -54,7 +54,8 @@ class DrivenMotion:
         headings = np.unwrap(self.headings)
         counts = np.maximum(np.ceil(np.abs(np.diff(headings)) / MAX_TURN_RAD), 1.0).astype(int)
         old = np.arange(len(headings), dtype=float)
-        within = np.concatenate([np.arange(n) / n for n in counts.tolist()] or [np.empty(0)])
+        first = np.repeat(np.cumsum(counts) - counts, counts)
+        within = (np.arange(len(first)) - first) / np.repeat(counts, counts)
         new = np.append(np.repeat(old[:-1], counts) + within, old[-1])
 
         def at(values: Floats) -> Floats:
