@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import math
-import sys
 from functools import cache
-from pathlib import Path as FilePath
 
 import numpy as np
 import pytest
+from charted_movers import Floats, Mover, least_gaps
 from hypothesis import assume, given
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(FilePath(__file__).parent))
-from charted_movers import Floats, Mover, least_gaps
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError

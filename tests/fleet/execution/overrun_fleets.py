@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+from stepped_fleets import APART_M, PERIOD_S, Drive, fleet
 
 import viaspline as vs
-
-sys.path.insert(0, str(Path(__file__).parent))
-from stepped_fleets import APART_M, PERIOD_S, Drive, fleet
 
 SIDE_M = 30.0
 SAMPLE_M = 0.01

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from straight_drives import driven_on, timed_lines
 
 import viaspline as vs
 from viaspline.errors import GeometryError, PlanningError
@@ -21,9 +20,6 @@ from viaspline.fleet.execution.fleet_orders import orders_of
 from viaspline.fleet.execution.left_fleet import fleet_without
 from viaspline.fleet.robots_at_home import certify_all
 from viaspline.mission.fleet.fleet import FleetMember
-
-sys.path.insert(0, str(Path(__file__).parent))
-from straight_drives import driven_on, timed_lines
 
 KINDS = {"cart": {"radius_m": 0.5, "clearance_m": 0.1, "max_speed_mps": 2.0}}
 

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-
-from viaspline import ProgressReport
-
-sys.path.insert(0, str(Path(__file__).parent))
 from overrun_fleets import faults, overrun
 from stepped_fleets import APART_M, CROSS, Drive, start
+
+from viaspline import ProgressReport
 
 
 def slipped(seconds: float, beyond: float) -> Drive:

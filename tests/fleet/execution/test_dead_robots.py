@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
+from stepped_fleets import APART_M, ASIDE, CROSS, member, start
 
 from viaspline.errors import GaveUpError
 from viaspline.fleet.execution import fleet_under_way
 from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
-
-sys.path.insert(0, str(Path(__file__).parent))
-from stepped_fleets import APART_M, ASIDE, CROSS, member, start
 
 
 def test_who_waits_for_a_dead_robot_goes_round_it() -> None:

@@ -1,7 +1,6 @@
 """Orders of fleets: who passes first, where the other one waits, and that it comes to an end."""
 
 import re
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,8 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_drives import CROSS, driven_on, timed_lines
 
 import viaspline as vs

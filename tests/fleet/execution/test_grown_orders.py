@@ -1,13 +1,8 @@
 """Orders of a fleet with a robot more are those that are drawn up for all of it anew."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_drives import REACH, driven_on, timed_lines
 
 import viaspline as vs

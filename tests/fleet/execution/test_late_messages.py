@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
+from stepped_fleets import fleet
 
 import viaspline as vs
 from viaspline import ProgressReport
-
-sys.path.insert(0, str(Path(__file__).parent))
-from stepped_fleets import fleet
 
 
 def test_no_order_is_swapped_while_a_grant_is_on_its_way_to_the_first() -> None:

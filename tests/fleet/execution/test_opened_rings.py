@@ -1,16 +1,12 @@
 """Robots that stop short would wait for each other for ever: one of them passes first instead."""
 
-import sys
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from shapely import LineString
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_drives import REACH, driven_on, timed_lines
 
 from viaspline.errors import GeometryError

@@ -1,13 +1,8 @@
 """When robots pass their bars, by an oracle that looks at every bar of every robot."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_drives import driven_on, timed_lines
 from test_grown_orders import under_way
 

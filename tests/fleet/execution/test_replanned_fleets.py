@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from stepped_fleets import APART_M, ASIDE, CROSS, PERIOD_S, Drive, fleet, member, start
 
 import viaspline as vs
 from viaspline.errors import GaveUpError, GeometryError, PlanningError
 from viaspline.fleet.execution.ways_from_rest import rest_of_route
 from viaspline.mission.route_spec import Route
-
-sys.path.insert(0, str(Path(__file__).parent))
-from stepped_fleets import APART_M, ASIDE, CROSS, PERIOD_S, Drive, fleet, member, start
 
 
 def test_a_robot_that_is_added_under_way_passes_the_others_and_nobody_else_is_touched() -> None:

@@ -1,14 +1,9 @@
 """Fleets that are driven through delays: they stay apart, arrive, and keep their limits."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_drives import (
     CROSS,
     REACH,

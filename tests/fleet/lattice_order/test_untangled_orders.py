@@ -1,11 +1,6 @@
 """Orders that go round in a circle, and the same with other ones at hand."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "kernels" / "fleet"))
 from straight_fleets import REACH, Line, courses_on, crossings_on
 
 from viaspline.fleet.courses import FleetCourses

@@ -1,11 +1,6 @@
 """Fleets of every kind, planned and saved once for all tests of what is saved."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
 from fleets_to_save import ASKED, Saved, unpainted
 
 import viaspline as vs

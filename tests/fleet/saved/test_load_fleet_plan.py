@@ -1,14 +1,11 @@
 """Fleets' plans that were saved: equal when they are loaded, and used as any other."""
 
 import shutil
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-
-sys.path.insert(0, str(Path(__file__).parent))
 from fleets_to_save import ASKED, Saved, unpainted
 
 import viaspline as vs

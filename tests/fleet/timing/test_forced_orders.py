@@ -1,14 +1,9 @@
 """Who has to pass first because of where robots stand, and orders that keep that."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "kernels" / "fleet"))
 from straight_fleets import courses_on, crossings_on
 
 from viaspline.fleet.timing.forced_orders import forced_orders, timing_order

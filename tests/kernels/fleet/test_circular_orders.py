@@ -1,9 +1,7 @@
 """Robots on straight lines that wait for each other in a circle; graphlib and scipy are oracles."""
 
-import sys
 from graphlib import CycleError, TopologicalSorter
 from itertools import pairwise
-from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
@@ -12,8 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_fleets import (
     REACH,
     Line,

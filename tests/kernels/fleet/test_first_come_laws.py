@@ -1,14 +1,9 @@
 """Robots on straight lines whose orders are settled as they meet; looked at instant by instant."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_fleets import (
     REACH,
     Line,

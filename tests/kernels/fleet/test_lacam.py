@@ -1,10 +1,5 @@
-import sys
-from pathlib import Path
-
 import numpy as np
 from hypothesis import given, settings
-
-sys.path.insert(0, str(Path(__file__).parent))
 from lattice_oracles import is_a_way, lattice_of, problems, there_is_a_way
 
 from viaspline.kernels.fleet.lacam import FOUND, GAVE_UP, NONE, lacam

@@ -1,12 +1,7 @@
-import sys
-from pathlib import Path
-
 import numpy as np
 from hypothesis import given, settings
-from scipy.sparse.csgraph import shortest_path
-
-sys.path.insert(0, str(Path(__file__).parent))
 from lattice_oracles import problems
+from scipy.sparse.csgraph import shortest_path
 
 from viaspline.kernels.fleet.lattice_distances import FAR, lattice_distances
 

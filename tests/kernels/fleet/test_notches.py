@@ -1,14 +1,9 @@
 """Robots slowed down on a straight line: as late as asked, and within what they can do."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_fleets import REACH, courses_on, rides_on
 
 from viaspline.kernels.fleet.notches import LATER_S, can_slow_at, slow_down

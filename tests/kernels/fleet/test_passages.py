@@ -1,14 +1,9 @@
 """Passages hold every box once, and bound what they hold."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_fleets import (
     REACH,
     courses_on,

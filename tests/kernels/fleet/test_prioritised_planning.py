@@ -1,13 +1,9 @@
-import sys
 from collections import deque
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from lattice_oracles import is_a_way, keeps_a_step_apart, lattice_of, problems
 
 from viaspline.kernels.fleet.lacam import FOUND, lacam

@@ -1,12 +1,7 @@
 """Robots on straight lines timed one after the other, while that is sooner than what there is."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_fleets import REACH, Line, courses_on, crossings_on, no_laws, rides_on
 
 from viaspline.kernels.fleet.passages import passages_of

@@ -1,14 +1,9 @@
 """Orders on straight lines turned round: sooner, still apart, and whole at any moment."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-
-sys.path.insert(0, str(Path(__file__).parent))
 from straight_fleets import (
     REACH,
     Line,

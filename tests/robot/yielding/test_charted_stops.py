@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import replace
 from functools import cache
-from pathlib import Path as FilePath
 from typing import Any
 
 import numpy as np
 import pytest
+from charted_movers import Floats, Mover, least_gaps
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -29,9 +28,6 @@ from viaspline.trajectory.passive_premises import PassivePremises
 from viaspline.trajectory.passive_safety import passive_law
 from viaspline.trajectory.retime import braking, retime
 from viaspline.world.moving_obstacles import MovingObstacles
-
-sys.path.insert(0, str(FilePath(__file__).parents[2] / "trajectory"))
-from charted_movers import Floats, Mover, least_gaps
 
 RADIUS, STEP = 0.2, 0.1
 LIMITS = Limits(max_speed=1.0, max_accel=0.5)

@@ -1,13 +1,9 @@
 """The law on a fixed path among things that move: sampled and bounded."""
 
-import pathlib
-import sys
 from typing import Any
 
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from on_a_line import LIMITS, cart, line
 
 from viaspline.curve.cardinal import CardinalSpline

@@ -1,12 +1,8 @@
 """Where there is no law past what moves: who is in the way, and what would help."""
 
-import sys
-from pathlib import Path
 from typing import Any
 
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
 from on_a_line import LIMITS, cart, line, parked
 
 import viaspline as vs
