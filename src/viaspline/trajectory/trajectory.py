@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from viaspline.handed_in import numbers_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.integrate import ride
+from viaspline.kernels.timing.law_states import law_states
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.trajectory.limits import Station
@@ -245,33 +246,28 @@ class Trajectory(ShownValue, ComparedByValue):
         Before its start and from its end on it stays as it is there, without acceleration.
         Scalar or array in, the same shape out.
         """
-        t = _within(numbers_from("time", time), self.times[0], self.times[-1])
-        last = self.accelerations.shape[0] - 1
-        i = _within(self.times.searchsorted(t, side="right") - 1, 0, last)
-        late = t - self.times[i]
+        at = numbers_from("time", time)
         if self.changes is not None and self.jerks is not None:
-            states = after(
-                late, self.speeds[i], self.accelerations[i], self.changes[i], self.jerks[i]
-            )
-            moving = (t == time) & (t < self.times[-1])
-            distance = _within(
-                self.distances[i] + states[0], self.distances[i], self.distances[i + 1]
-            )
-            speed = np.where(t >= self.times[-1], self.speeds[-1], np.maximum(states[1], 0.0))
-            return distance[()], speed[()], (states[2] * moving)[()]
-        first, acceleration = self.speeds[i], self.accelerations[i]
-        distance = self.distances[i] + (first + 0.5 * acceleration * late) * late
-        second = self.speeds[i + 1]
-        speed = _within(
-            first + acceleration * late, np.minimum(first, second), np.maximum(first, second)
-        )
-        speed = np.where(t >= self.times[-1], self.speeds[-1], speed)  # whatever the rounding says
-        acceleration = acceleration * ((t == time) & (t < self.times[-1]))
+            return self._bent_state_at(at)
+        law = (self.times, self.distances, self.speeds, self.accelerations)
+        distance, speed, acceleration = law_states(*law, at.reshape(-1).copy())
         return (
-            _within(distance, self.distances[i], self.distances[i + 1])[()],
-            speed[()],
-            acceleration[()],
+            distance.reshape(at.shape)[()],
+            speed.reshape(at.shape)[()],
+            acceleration.reshape(at.shape)[()],
         )
+
+    def _bent_state_at(self, time: Floats) -> tuple[Floats, Floats, Floats]:
+        """State at any time of a law whose acceleration changes between its points."""
+        t = _within(time, self.times[0], self.times[-1])
+        i = _within(self.times.searchsorted(t, side="right") - 1, 0, len(self.accelerations) - 1)
+        piece = (self.speeds[i], self.accelerations[i], *(one[i] for one in self._bends))
+        states = after(t - self.times[i], *piece)
+        is_over = t >= self.times[-1]
+        moving = (t == time) & ~is_over
+        distance = _within(self.distances[i] + states[0], self.distances[i], self.distances[i + 1])
+        speed = np.where(is_over, self.speeds[-1], np.maximum(states[1], 0.0))
+        return distance[()], speed[()], (states[2] * moving)[()]
 
     def distance_at(self, time: ArrayLike) -> Floats:
         """Distance along the path at any time [s], in [m]."""
