@@ -70,6 +70,22 @@ def test_a_string_to_where_it_begins_has_no_length(guide: Any) -> None:
     assert length(bends) == 0.0
 
 
+def test_a_string_that_is_widened_past_two_discs_that_overlap_comes_to_rest() -> None:
+    hub = [(14.833, 14.954), (14.788, 15.263), (14.351, 15.229), (14.193, 14.699),
+           (14.705, 14.599), (14.807, 14.676)]  # fmt: skip
+    stone = [(15.149, 19.938), (14.781, 20.217), (14.479, 19.867), (14.319, 19.705),
+             (14.596, 19.394), (14.866, 19.442)]  # fmt: skip
+    discs = disc(15.88635, 17.20836, 0.72649), disc(15.85134, 17.37575, 0.7608)
+    guide = [(14.94, 13.77), (15.3, 14.47), (15.3, 16.23), (15.18, 16.24), (14.7, 17.05),
+             (14.6, 17.2), (14.6, 18.81), (14.2, 19.1), (13.89, 19.4), (13.89, 20.27)]  # fmt: skip
+    world = World([Obstacle(polygon=hub), *discs, Obstacle(polygon=stone)])
+    bends, corners, _ = pulled(world, guide, rho=0.48478, side=0.117)
+    assert len(bends) == 7  # none where it gets stuck
+    line = shapely.LineString(corners[:, X : Y + 1])
+    for one in discs:
+        assert line.distance(shapely.Point(one.circle.center)) >= one.circle.radius + 0.484779
+
+
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_a_string_lies_on_the_side_of_its_guide(side: float) -> None:
     guide = [(-13, 0), (-4, 6 * side), (0, 6 * side), (4, 6 * side), (13, 0)]

@@ -213,8 +213,11 @@ def _settled(
             _write_gap(world, rows, k, heading, x, y, stuck)
             return rows, 0
         insertions += 1
-        rows = insert(rows, count, at + 1)
-        write(rows, at + 1, found, chosen, rho, lean, place)
+        row = at + 1
+        if row < count - 1 and rows[row, SIDE] == lean and rows[row, PLACE] < place:
+            row += 1  # the guide comes past it later: before the other it would bend back
+        rows = insert(rows, count, row)
+        write(rows, row, found, chosen, rho, lean, place)
         count += 1
 
 
