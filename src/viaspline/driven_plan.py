@@ -13,8 +13,8 @@ from viaspline.machine.allowance import allowance_on_bends, tracking_remedy
 from viaspline.machine.eased_turns import eased_turns
 from viaspline.machine.error_between import planned_between
 from viaspline.machine.refused_allowance import unproven
-from viaspline.machine.robot_model import is_driven
 from viaspline.mission.model import Mission
+from viaspline.mission.spot_turning import is_driven
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.whole_plan import Plan, with_error

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from viaspline.driven_plan import as_driven, driven_plan
 from viaspline.errors import GaveUpError, GeometryError, PlanningError
-from viaspline.machine.robot_model import is_driven
 from viaspline.mission.model import Mission
+from viaspline.mission.spot_turning import is_driven
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.whole_plan import Plan, with_error
 from viaspline.world.world import World

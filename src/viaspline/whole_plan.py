@@ -16,9 +16,10 @@ from viaspline.machine.allowance import TrialDrives
 from viaspline.machine.drivability import Drivability
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.measure_drivability import drivability_of
-from viaspline.machine.turns_on_spot import SpotTurning, with_turns
+from viaspline.machine.turns_on_spot import with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import SpotTurning
 from viaspline.planning.alternatives.kept_account import KeptAccount
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution

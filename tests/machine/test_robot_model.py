@@ -7,14 +7,8 @@ from typing import Any
 
 import pytest
 
-from viaspline.machine.robot_model import drive_model_of, is_driven
+from viaspline.machine.robot_model import drive_model_of
 from viaspline.mission.robot_parts import RobotSpec
-
-
-def test_a_robot_is_driven_that_has_a_drive_or_does_not_know_where_it_is(robot_of: Any) -> None:
-    assert not is_driven(RobotSpec())
-    assert is_driven(robot_of("point"))
-    assert is_driven(robot_of("differential", noise=False))
 
 
 def test_steered_wheels_turn_by_an_angle_and_all_others_by_a_yaw_rate(robot_of: Any) -> None:

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.machine.robot_model import drive_model_of
-from viaspline.machine.turns_on_spot import SpotTurning, corners, with_turns
+from viaspline.machine.turns_on_spot import corners, with_turns
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import SpotTurning
 from viaspline.trajectory.limits import Station
 
 
@@ -31,12 +31,6 @@ def test_every_corner_of_a_polyline_is_found_with_its_angle(square: CardinalSpli
 
 def test_a_smooth_curve_has_no_corner(bends: Any) -> None:
     assert corners(bends)[0].size == 0
-
-
-def test_a_wider_turn_takes_longer_and_steered_wheels_make_none(robot_of: Any) -> None:
-    turning = SpotTurning.of(robot_of("differential"))
-    assert turning.time(-2.0) > turning.time(1.0) > 1.0
-    assert SpotTurning.of(robot_of("ackermann")).time(1.0) == 0.0
 
 
 def test_a_robot_without_a_drive_turns_as_fast_as_its_yaw_rate_allows(
@@ -75,13 +69,6 @@ def test_a_curve_that_only_comes_to_rest_within_a_span_does_not_turn() -> None:
     assert corners(PiecewiseCubic([[(0, 0), (1, 0), (1, 0), (2, 0)]]))[0].size == 0  # P' is above 0
     still = PiecewiseCubic([[(0, 0), (1, 0), (0, 0), (1, 0)]])  # P' = 3 (1 - 2w)², as flat as can
     assert corners(still)[0].size == 0
-
-
-def test_a_body_that_keeps_its_heading_only_comes_to_rest(robot_of: Any) -> None:
-    model = drive_model_of(robot_of("point"))
-    held = model._replace(actuators=model.actuators._replace(held_heading=0.3), lag=0.2)
-    turning = SpotTurning.of_model(held)
-    assert turning.time(2.0) == turning.time(0.1) == pytest.approx(0.6)
 
 
 def test_a_stay_that_is_long_enough_serves_for_the_turn(

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from viaspline.machine.robot_model import is_driven
 from viaspline.mission.drives.drive_limits import DriveLimits
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import is_driven
 from viaspline.trajectory.limits import REACTION_S, Limits
 
 TURN_RADPS = 3.0

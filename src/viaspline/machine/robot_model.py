@@ -7,9 +7,14 @@ import math
 from viaspline.kernels.tracking.actuators import Actuators
 from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.mission.robot_parts import RobotSpec
-
-PERIOD_S = 0.05
-"""Time between two commands, if nothing else is said [s]."""
+from viaspline.mission.spot_turning import (
+    LAGS_PER_LOOP,
+    PERIOD_S,
+    actuators_of,
+    heading_gain_of,
+    lag_of,
+    spot_rate_of,
+)
 
 YAW_RESERVE = 1.25
 """What control may ask of the yaw rate beyond what the time law plans with, as a factor."""
@@ -17,9 +22,6 @@ YAW_RESERVE = 1.25
 ACCEL_RESERVE = 2.0
 """What it may ask of the acceleration: a command that is held for a period makes stairs of a
 slope."""
-
-SPOT_RATE_RADPS = 1.0
-"""Yaw rate of a turn on the spot, if the drive has no limit of its own [rad/s]."""
 
 CONVERGENCE_TIME_S, CONVERGENCE_DISTANCE_M = 0.6, 0.3
 """Over what a deviation dies out: from sweeps over examples, lags and noise, see
@@ -29,19 +31,11 @@ STEERED_SWING_RAD = 0.2
 """By so much a heading may be off and steering still keeps up with what control asks of it, so that
 it dies out: of 0.05 to 0.45 this is off least over slow steering and noise [rad]."""
 
-LAGS_PER_LOOP = 4.0
-"""A control loop is so many times slower than its lag: then it is damped well."""
-
-ALONG_GAIN_PER_S, HEADING_GAIN_PER_S = 1.0, 2.0
-"""Of an error along the path, and of the heading on the spot [1/s]."""
+ALONG_GAIN_PER_S = 1.0
+"""Of an error along the path [1/s]."""
 
 SLACK_M, SLACK_TIME_S = 0.05, 0.15
 """How far a robot may lag behind before its clock waits, at rest [m] and per speed [s]."""
-
-
-def is_driven(robot: RobotSpec) -> bool:
-    """Whether a robot moves by a drive's laws, or doesn't know where it is exactly."""
-    return robot.drive is not None or robot.localization is not None
 
 
 def drive_model_of(robot: RobotSpec, period: float = PERIOD_S) -> DriveModel:
@@ -57,8 +51,7 @@ def drive_model_of(robot: RobotSpec, period: float = PERIOD_S) -> DriveModel:
         0.1
     """
     drive, place = robot.drive, robot.localization
-    actuators = _actuators_of(robot)
-    lag = 0.0 if drive is None else drive.lag_s
+    actuators, lag = actuators_of(robot), lag_of(robot)
     slow = 1.0 / (LAGS_PER_LOOP * (lag + 0.5 * period))
     noise = 0.0 if place is None else place.position_noise_m
     yaw = math.radians(robot.max_yaw_rate_degps or math.inf)
@@ -75,11 +68,11 @@ def drive_model_of(robot: RobotSpec, period: float = PERIOD_S) -> DriveModel:
         max_accel=ACCEL_RESERVE * max(robot.max_accel_mps2, robot.max_brake_mps2 or 0.0),
         delay=0.0 if drive is None else drive.delay_s,
         lag=lag,
-        spot_rate=min(SPOT_RATE_RADPS, yaw, _spot_rate(actuators)),
+        spot_rate=spot_rate_of(robot),
         convergence_time=max(CONVERGENCE_TIME_S, LAGS_PER_LOOP * lag),
         convergence_distance=max(CONVERGENCE_DISTANCE_M, steered_distance(actuators, speed)),
         along_gain=min(ALONG_GAIN_PER_S, slow),
-        heading_gain=min(HEADING_GAIN_PER_S, slow),
+        heading_gain=heading_gain_of(robot, period),
         slack=SLACK_M + 3.0 * noise,
         slack_time=SLACK_TIME_S,
         speed_noise=0.0 if drive is None else drive.speed_noise_mps,
@@ -107,17 +100,5 @@ def steered_distance(actuators: Actuators, speed: float) -> float:
 
 def steers_slowly(robot: RobotSpec) -> bool:
     """Whether it is its steering that tells how soon a robot at full speed is back on its path."""
-    steered = steered_distance(_actuators_of(robot), robot.max_speed_mps)
+    steered = steered_distance(actuators_of(robot), robot.max_speed_mps)
     return steered > max(CONVERGENCE_DISTANCE_M, CONVERGENCE_TIME_S * robot.max_speed_mps)
-
-
-def _actuators_of(robot: RobotSpec) -> Actuators:
-    """Those of its drive; without one they have no limits."""
-    return Actuators() if robot.drive is None else robot.drive.kind.actuators()
-
-
-def _spot_rate(actuators: Actuators) -> float:
-    """The yaw rate with both wheels at full speed, one backwards [rad/s]."""
-    if actuators.track <= 0.0:
-        return math.inf
-    return 2.0 * actuators.max_wheel_speed * actuators.grip / actuators.track

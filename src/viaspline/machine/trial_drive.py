@@ -33,10 +33,11 @@ from viaspline.kernels.tracking.reference_path import ReferencePath
 from viaspline.kernels.tracking.reference_timing import SpeedProfile
 from viaspline.machine.drive_noise import DriveNoise
 from viaspline.machine.reference import reference_path_of
-from viaspline.machine.robot_model import PERIOD_S, drive_model_of
+from viaspline.machine.robot_model import drive_model_of
 from viaspline.machine.tracking import Tracking
 from viaspline.machine.travel import travel_of
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import PERIOD_S
 from viaspline.trajectory.trajectory import Trajectory
 
 MAX_DURATIONS, MAX_OVERTIME_S = 1.5, 60.0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -12,8 +11,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cusps import SAME_CUSP, beside_cusps, cusps
 from viaspline.kernels.tracking.drive_model import DriveModel
-from viaspline.machine.robot_model import drive_model_of, is_driven
-from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import SpotTurning
 from viaspline.trajectory.limits import Station
 
 CORNER_RAD = 0.02
@@ -21,9 +19,6 @@ CORNER_RAD = 0.02
 
 TURN = "turn"
 """What the stay of a robot that turns on the spot is called."""
-
-SETTLING_TIMES = 3.0
-"""Time constants until a heading, or a direction of travel, is right."""
 
 SAME_DISTANCE_M = 1e-6
 """Distances nearer than this are one place [m]."""
@@ -145,42 +140,6 @@ def heading_onward(path: PiecewiseCubic, distance: float) -> float:
 def turns_where_it_stands(model: DriveModel) -> bool:
     """Whether a drive turns on the spot to look along its path."""
     return model.actuators.wheelbase <= 0.0 and math.isnan(model.actuators.held_heading)
-
-
-class SpotTurning(NamedTuple):
-    """How a robot turns where it stands.
-
-    Attributes:
-        rate: [rad/s]; inf where turning takes no time, or nothing turns.
-        settling: Until it goes on [s].
-    """
-
-    rate: float = math.inf
-    settling: float = 0.0
-
-    @classmethod
-    def of(cls, robot: RobotSpec) -> SpotTurning:
-        """That of a mission's robot; one without a drive keeps its yaw rate, if it has one.
-
-        >>> round(SpotTurning.of(RobotSpec(max_yaw_rate_degps=90)).time(math.pi), 6)
-        2.0
-        """
-        if is_driven(robot):
-            return cls.of_model(drive_model_of(robot))
-        return cls(math.radians(robot.max_yaw_rate_degps or math.inf))
-
-    @classmethod
-    def of_model(cls, model: DriveModel) -> SpotTurning:
-        """That of a drive. Steered wheels make no turns; a held heading only comes to rest."""
-        if model.actuators.wheelbase > 0.0:
-            return cls()
-        if not math.isnan(model.actuators.held_heading):
-            return cls(settling=SETTLING_TIMES * model.lag)
-        return cls(model.spot_rate, SETTLING_TIMES / model.heading_gain + model.lag)
-
-    def time(self, angle: float) -> float:
-        """How long a turn takes [s], angle [rad]."""
-        return abs(angle) / self.rate + self.settling
 
 
 def turns_on(path: PiecewiseCubic, turning: SpotTurning) -> tuple[float, ...]:

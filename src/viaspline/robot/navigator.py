@@ -10,10 +10,11 @@ from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.handed_in import all_finite, check_kind, number_from, numbers_from, time_from
 from viaspline.machine.machine_limits import limits_of
-from viaspline.machine.robot_model import PERIOD_S, drive_model_of, is_driven
+from viaspline.machine.robot_model import drive_model_of
 from viaspline.machine.turns_on_spot import heading_onward
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.spot_turning import PERIOD_S, is_driven
 from viaspline.planner import Plan
 from viaspline.planner import plan as plan_mission
 from viaspline.planning.turning.hybrid_astar.pose_search import prepare_body

@@ -18,12 +18,13 @@ from viaspline.kernels.tracking.drive_model import yaw_rate_of
 from viaspline.machine.turns_on_spot import heading_onward
 from viaspline.mission.drives.drive import Drive
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import told_rate_of
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigation.track_path import ON_PATH_M
 from viaspline.robot.state import Command, RobotState
-from viaspline.robot.watching.turned_first import AT_REST_MPS, spot_rate_of
+from viaspline.robot.watching.turned_first import AT_REST_MPS
 
 MIN_CONVERGENCE_M, CONVERGENCE_TIME_S = 1.0, 1.0
 """A robot beside its path comes back to it over at least this distance [m], and over what it drives
@@ -102,7 +103,7 @@ def _driven(controller: Controller, drive: Drive | None) -> _Motion:
 
 def _turning_to(heading: float, state: RobotState, robot: RobotSpec) -> float:
     """The yaw rate of a robot without a drive where it stands [rad/s]."""
-    error, most = math.remainder(heading - state.heading, math.tau), spot_rate_of(robot)
+    error, most = math.remainder(heading - state.heading, math.tau), told_rate_of(robot)
     if abs(error) <= HEADING_DEADBAND_RAD:
         return 0.0
     return min(max(SPOT_GAIN * error, -most), most)

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 
 from viaspline.errors import ViasplineError
 from viaspline.kernels.arrays import Floats
-from viaspline.machine.robot_model import is_driven
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import is_driven
 from viaspline.mission.strip import has_line
 from viaspline.planning.methods.ordered import SPLINE_METHODS, PathMethod
 from viaspline.planning.methods.spline_as_is import SplineAsItIs

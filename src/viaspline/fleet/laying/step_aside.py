@@ -24,8 +24,8 @@ from viaspline.kernels.fleet.marked_joints import ASIDE, FIXED, FREE, KEPT
 from viaspline.kernels.fleet.sidestep import step_aside
 from viaspline.machine.allowance import allowance
 from viaspline.machine.machine_limits import limits_of
-from viaspline.machine.robot_model import is_driven
 from viaspline.mission.model import Mission
+from viaspline.mission.spot_turning import is_driven
 from viaspline.planner import Plan
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements

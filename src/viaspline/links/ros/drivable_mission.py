@@ -6,8 +6,8 @@ Tested through ``links/ros/test_ros_bridge``.
 from __future__ import annotations
 
 from viaspline.errors import LinkError
-from viaspline.machine.robot_model import is_driven
 from viaspline.mission.model import Mission
+from viaspline.mission.spot_turning import is_driven
 
 
 def check_for_ros(mission: Mission) -> None:

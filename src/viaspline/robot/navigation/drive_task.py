@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from viaspline.kernels.tracking.drive_model import DriveModel
-from viaspline.machine.turns_on_spot import SpotTurning
 from viaspline.mission.model import Mission
+from viaspline.mission.spot_turning import SpotTurning
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.perception.belief import MIN_SURFACE_DISTANCE_M
 from viaspline.trajectory.limits import Limits

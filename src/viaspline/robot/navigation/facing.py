@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 
 from viaspline.curve.path import Path
-from viaspline.machine.turns_on_spot import CORNER_RAD, TURN, SpotTurning, heading_onward
+from viaspline.machine.turns_on_spot import CORNER_RAD, TURN, heading_onward
+from viaspline.mission.spot_turning import SpotTurning
 from viaspline.robot.navigation.progress import REST_MPS, SAME_PLACE_M, Progress
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.trajectory import Trajectory

@@ -18,11 +18,11 @@ from viaspline.kernels.tracking.drive_motion import HEADING
 from viaspline.machine.reference import heading_after
 from viaspline.machine.turns_on_spot import (
     TURN,
-    SpotTurning,
     heading_onward,
     turns_where_it_stands,
     with_turns,
 )
+from viaspline.mission.spot_turning import SpotTurning
 from viaspline.robot.navigation.certain_way import certain_until, sighted_until
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.facing import facing_at, turn_to

@@ -10,9 +10,8 @@ import math
 
 import numpy as np
 
-from viaspline.machine.robot_model import SPOT_RATE_RADPS
 from viaspline.machine.turns_on_spot import heading_onward
-from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import told_rate_of
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.state import RobotState
@@ -36,19 +35,6 @@ ROUNDING_S = 1e-9
 """Of the instant of a rest to which a time law was delayed."""
 
 TURNING = "turning"
-
-
-def spot_rate_of(robot: RobotSpec) -> float:
-    """How fast a robot without a drive is told to turn where it stands, at most [rad/s].
-
-    >>> spot_rate_of(RobotSpec()), round(spot_rate_of(RobotSpec(max_yaw_rate_degps=90)), 3)
-    (1.0, 1.571)
-    >>> spot_rate_of(RobotSpec(turn_on_spot="never"))
-    0.0
-    """
-    if robot.max_yaw_rate_degps is not None:
-        return math.radians(robot.max_yaw_rate_degps)
-    return 0.0 if robot.turns_on_spot == "never" else SPOT_RATE_RADPS
 
 
 def turned_first(
@@ -82,7 +68,7 @@ def turned_first(
     gap = math.dist(schedule.path.at_distance(distance), measured.position)
     if gap > NEAR_M + task.requirements.tracking_error:
         return watch.without_telling(TURNING), 0.0
-    way, rate = heading_onward(schedule.path, distance), spot_rate_of(robot)
+    way, rate = heading_onward(schedule.path, distance), told_rate_of(robot)
     angle = abs(math.remainder(way - measured.heading, math.tau))
     if angle <= LEAVING_RAD or rate == 0.0:
         return watch.without_telling(TURNING), 0.0
