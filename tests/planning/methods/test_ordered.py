@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
@@ -289,3 +289,22 @@ def test_a_robot_under_way_that_can_not_turn_away_is_told_to_be_driven_on() -> N
     assert "no way on from where the robot is" in run.reason
     assert "plan anew from there" in run.reason
     assert "'the robot'" not in run.reason
+
+
+@pytest.mark.parametrize(("robot", "most_s"), [
+    ({"turn_on_spot": "never"}, 0.3), ({"turn_on_spot": "never", "max_yaw_rate_degps": 20}, 2.2),
+    ({"min_turn_radius_m": 1.0, "turn_on_spot": "never"}, 0.7),
+])  # fmt: skip
+def test_a_turn_at_a_station_is_as_sharp_as_the_robot_that_stands_there(
+    robot: dict[str, Any], most_s: float
+) -> None:
+    places = ((5.7, 37.9), (55.1, 26.5), (23.4, 6.8))
+    body = {"radius_m": 0.3, "clearance_m": 0.2, "max_speed_mps": 2.0, "max_accel_mps2": 1.0}
+    plan = vs.plan(vs.Mission.model_validate({
+        "robot": body | robot,
+        "route": {"start": places[0], "via": [{"at": places[1], "dwell_s": 2}], "goal": places[2]},
+    }))  # fmt: skip
+    straight = sum(math.dist(*ends) / 2.0 + 2.0 for ends in pairwise(places))
+    assert plan.trajectory.end_time - 2.0 - straight < most_s
+    assert plan.drivability.verdict == "good"
+    assert plan.path.curvature_jumps().max() < 1e-6

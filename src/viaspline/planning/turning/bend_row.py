@@ -34,7 +34,7 @@ class Bends:
         rows: See ``kernels.turning.settled_lines``, shape (n, 6).
         vias: Index of each one's via point in the sequence, or ``DETOUR``, shape (n,).
         swings: How far each one's turn may swing out beyond what is kept [m], (n,); infinite
-            where it may be as wide as is fast.
+            where it may be as wide as is fast, 0 at via points where the robot stands.
         closed: Whether the last one is followed by the first.
     """
 
@@ -243,7 +243,8 @@ def bends_of_legs(sequence: ViaSequence, legs: Sequence[LegBends]) -> Bends:
     for k, via in enumerate(sequence.vias):
         table[len(vias), :2] = via.at[:2]
         vias.append(k)
-        swings.append(min(before[k], after[k]))
+        is_passed = via.dwell <= 0.0 or (not sequence.closed and k in (0, len(legs)))
+        swings.append(min(before[k], after[k]) if is_passed else 0.0)
         if k < len(legs):
             table[len(vias) : len(vias) + len(legs[k].rows)] = legs[k].rows
             vias += [DETOUR] * len(legs[k].rows)

@@ -21,7 +21,7 @@ from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import TURN_WISHES_S, turn_path_s
 from viaspline.planning.turning.affordable_room import affordable_radii
-from viaspline.planning.turning.bend_row import HEADING, KEPT, RADIUS, Bends
+from viaspline.planning.turning.bend_row import DETOUR, HEADING, KEPT, RADIUS, Bends
 from viaspline.planning.turning.joined_bends import (
     TurnWishes,
     joins_worth_it,
@@ -199,9 +199,23 @@ class WideTurns:
         given = np.isfinite(bends.rows[rows, HEADING]) & at_ends & (not bends.closed)
         swing = np.where(given, np.minimum(angles, 1.0), swing_share(angles))
         swung = bends.swings[rows] / np.maximum(swing, LEAST_SHARE)
+        rests = (bends.swings[rows] == 0.0) & (bends.vias[rows] != DETOUR)
+        swung[rests] = self._radii_at_rests(angles[rests])
         radii[rows] = np.minimum(radii[rows], kept + swung)
         radii[rows] = np.maximum(radii[rows], self.sharpest)
         return radii
+
+    def _radii_at_rests(self, angles: Floats) -> Floats:
+        r"""The radii of turns in whose middle the robot stands [m], (n,): as sharp as may be.
+
+        One that turns no faster than :math:`\omega` has come to
+        :math:`a \theta^2 / 8 \omega^2` when half of the turn is done. A sharper turn takes as long.
+
+        Args:
+            angles: By how much they turn [rad], (n,).
+        """
+        found: Floats = 0.25 * self.pace.accel / self.pace.yaw_rate**2 * angles
+        return found
 
 
 def _tried(
