@@ -11,6 +11,7 @@ from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.methods.clear_spline import ClearSpline
+from viaspline.planning.methods.corners_at_stations import CornersAtStations
 from viaspline.planning.methods.ordered import SPLINE_METHODS, PathMethod, methods_for
 from viaspline.planning.problem.method import Found, first_settled
 from viaspline.planning.problem.requirements import Requirements
@@ -87,7 +88,8 @@ def _laid(asked: PathProblem, methods: Sequence[PathMethod]) -> tuple[SplinePath
     problem = DrivenProblem(
         asked.sequence, world, requirements, asked.router, asked.overlooked, cleared=cleared
     )
-    outcome = first_settled(methods, problem)
+    asked_methods = methods if is_spline else (CornersAtStations(methods),)
+    outcome = first_settled(asked_methods, problem)
     if not isinstance(outcome, Found):
         raise unlaid(problem, outcome)
     driven = None if is_spline else partial(as_driven, problem)

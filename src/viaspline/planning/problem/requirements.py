@@ -14,6 +14,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec, TurnOnSpot
 from viaspline.mission.route_spec import Detours
 from viaspline.mission.spline_spec import SplineSpec, Tangents
+from viaspline.mission.spot_turning import SpotTurning, foreseen_turning
 from viaspline.planning.problem.least_width import least_width
 from viaspline.planning.problem.objective import Objective
 from viaspline.planning.problem.parts_found import PartsFound
@@ -44,6 +45,7 @@ class Requirements(ComparedByValue):
         turn_radius: The radius of the tightest circle that the robot can drive [m]; None if it
             has no limit.
         turns_on_spot: Where it may stand and turn.
+        turning: How it does.
         objective: By what paths are chosen.
         detours: Whether they keep to the line between via points; None: where that is long beside
             what stands in it.
@@ -63,6 +65,7 @@ class Requirements(ComparedByValue):
     tracking_error: float = 0.0
     turn_radius: float | None = None
     turns_on_spot: TurnOnSpot = "stations"
+    turning: SpotTurning = field(default_factory=SpotTurning)
     objective: Objective = field(default_factory=lambda: Objective("time", Pace.of(RobotSpec())))
     detours: Detours | None = None
     budget: WorkBudget | None = None
@@ -252,6 +255,7 @@ class Requirements(ComparedByValue):
             ),
             turn_radius=robot.turn_radius,
             turns_on_spot=robot.turns_on_spot,
+            turning=foreseen_turning(robot),
             objective=Objective(mission.route.optimise, Pace.of(robot, mission.world.speed_zones)),
             detours=mission.route.detours,
         )

@@ -112,11 +112,31 @@ class ViaSequence:
         """This sequence with another leg."""
         return replace(self, legs=(*self.legs[:index], leg, *self.legs[index + 1 :]))
 
+    def between(self, first: int, last: int) -> ViaSequence:
+        """The part from one via point to another, of a round past its end; free where it is cut.
+
+        Args:
+            first: The via point with which it begins.
+            last: That with which it ends, counted on past the last of a round.
+        """
+        count = len(self.vias)
+        legs = [k % len(self.legs) for k in range(first, last)]
+        at_start, at_end = not self.closed and first == 0, not self.closed and last == count - 1
+        return replace(
+            self,
+            vias=tuple(self.vias[k % count] for k in range(first, last + 1)),
+            legs=tuple(self.legs[k] for k in legs),
+            start_tangent=self.start_tangent if at_start else None,
+            end_tangent=self.end_tangent if at_end else None,
+            closed=False,
+            parts_of=tuple(self.parts_of[k] for k in legs) if self.parts_of else (),
+        )
+
     def stands(self, via: int) -> bool:
         """Whether the robot stands still at a via point, the one after the last the first again."""
         at = self.vias[via % len(self.vias)]
         is_end = via in (0, len(self.vias) - (not self.closed))
-        return at.dwell > 0.0 or (is_end and at.index is not None)
+        return at.dwell > 0.0 or at.index == 0 or (is_end and at.index is not None)
 
     def rests(self, joints: Ints, spans: int) -> Flags:
         """Where the robot stands still on a curve through the via points, (spans + 1,).

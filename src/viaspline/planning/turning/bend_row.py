@@ -159,11 +159,20 @@ class Bends:
 
         Where the lines there and away lie on each other it is that of the line there.
         """
-        before, at, after = self.rows[np.arange(k - 1, k + 2) % len(self.rows)]
-        there, away = -_tangent(at, before, -1.0), _tangent(at, after, 1.0)
+        there, away = self._lines_at(k)
         both = there + away
         x, y = (both if np.hypot(*both) > TURNS_BACK else there).tolist()
         return math.atan2(y, x)
+
+    def turn_at(self, k: int) -> float:
+        """By how much the lines there and away turn at bend k, which goes round nothing [rad]."""
+        there, away = self._lines_at(k)
+        return math.atan2(there[0] * away[1] - there[1] * away[0], float(there @ away))
+
+    def _lines_at(self, k: int) -> tuple[Floats, Floats]:
+        """The directions of the lines there and away at bend k, which goes round nothing, (2,)."""
+        before, at, after = self.rows[np.arange(k - 1, k + 2) % len(self.rows)]
+        return -_tangent(at, before, -1.0), _tangent(at, after, 1.0)
 
     def places(self, via: int) -> int:
         """Where in the row a via point of the sequence stands."""

@@ -17,6 +17,8 @@ from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.gentler_path import gentler_path
+from viaspline.planning.turning.parts_at_corners import PartsAtCorners
+from viaspline.planning.turning.station_corners import StationCorners
 
 SAMPLES_PER_SPAN = 8  # for the side on which it passes something
 
@@ -26,11 +28,27 @@ def as_driven(
 ) -> Comparison:
     """The curves past what a leg meets, as they are driven.
 
+    Where the path has corners at stations, the others have them, too.
+
     Args:
         problem: What was laid, for what drives it.
         comparison: The splines.
         spline_path: The path as it was laid in the end.
     """
+    parts = PartsAtCorners.of(problem, spline_path)
+    if not parts.corners or not StationCorners(problem).may_be_any:
+        return _as_driven(problem, comparison, spline_path)
+    part, index = parts.place(comparison.leg.index)
+    its = parts.problems[part]
+    leg = replace(comparison.leg, sequence=its.sequence, index=index)
+    found = _as_driven(its, replace(comparison, leg=leg), parts.cut(spline_path)[part])
+    return replace(found, leg=comparison.leg)
+
+
+def _as_driven(
+    problem: DrivenProblem, comparison: Comparison, spline_path: SplinePath
+) -> Comparison:
+    """The curves past what a leg meets, of a path without corners."""
     leg, met = comparison.leg.index, comparison.met
     winner = _curve(problem, leg, spline_path)
     curves = [winner]
