@@ -129,3 +129,34 @@ def test_a_robot_that_never_turns_on_the_spot_arrives_as_it_did_on_its_old_path(
     new = reflex(plan.path, 5.0, world, Requirements.of(plan.mission))
     assert corners(new.path)[0].size == 0
     assert new.path.curvature_jumps().max() < 1e-6
+
+
+def corner_at_a_station(*known: tuple[float, float]) -> tuple[vs.Plan, vs.World]:
+    """A way to a station, a turn there and another way on, and posts on these."""
+    asked = vs.Mission.model_validate({
+        "robot": {"radius_m": 0.3, "clearance_m": 0.2, "max_speed_mps": 2, "max_accel_mps2": 1},
+        "route": {"start": [0, 0], "via": [{"at": [12, 0], "dwell_s": 6}], "goal": [3, 9]},
+    })  # fmt: skip
+    plan = vs.plan(asked)
+    assert len(corners(plan.path)[0]) == 1
+    posts = [vs.Obstacle(circle={"center": at, "radius": 0.4}) for at in known]
+    return plan, plan.world.with_obstacles(posts)
+
+
+@pytest.mark.parametrize("post", [(8.0, 0.1), (10.3, -0.1), (10.5, 1.3), (7.0, 5.2)])
+def test_a_corner_at_a_station_is_come_to_and_left_from_any_direction(
+    post: tuple[float, float],
+) -> None:
+    plan, world = corner_at_a_station(post)
+    needs = Requirements.of(plan.mission)
+    new = reflex(plan.path, 2.0, world, needs)
+    assert new.certificate.holds
+    station = next(via for via in new.path.vias if via.index == 1)
+    assert station.at == (12.0, 0.0)
+    assert [via.name for via in new.path.vias if via.kind == "user"] == ["start", "via 1", "goal"]
+    at, _ = corners(new.path)
+    assert at == pytest.approx([new.path.distance(station.u)])
+    assert new.path.length < plan.path.length + 0.6  # a loop before it takes several metres
+    assert sharpest_radius(new.path, 0.0) > needs.radius
+    u = np.linspace(*new.path.domain, 20_001)
+    assert float(np.min(world.distance(new.path.evaluate(u)))) > needs.required - 1e-6

@@ -10,14 +10,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viaspline.curve.path import Path
+from viaspline.curve.path import Path, PathVia
 from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, turn_conflict
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
 from viaspline.planning.problem.via_sequence import RouteVia
-from viaspline.planning.replanning.stretch import LEAST_RUN_OUT_M, Stretch, room_to_run_out
+from viaspline.planning.replanning.stretch import (
+    LEAST_RUN_OUT_M,
+    PASSED_M,
+    Stretch,
+    room_to_run_out,
+)
+from viaspline.planning.turning.parts_at_corners import CORNER_RAD, angles_between
 from viaspline.world.world import World
 
 AT_REST = 0.05  # a run-out from a standstill, over that of a rolling robot
@@ -66,6 +72,36 @@ def straight_on(
     """Leave a path from a standstill in the direction in which the body looks."""
     left = standing(path, stretch, world, requirements, reach)
     return replace(left, tangent=np.asarray(path.tangent(stretch.u)))
+
+
+def turning_away(
+    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
+) -> Departure:
+    """Leave a path where it has a corner at a station: in any direction, for the robot turns there.
+
+    See ``turns_at``.
+    """
+    via = station_at(path, stretch.u)
+    assert via is not None  # there is one
+    place = np.array(via.at)
+    start = RouteVia(via.name, place, via.index, via.dwell)
+    return Departure(np.empty((0, 4, place.size)), start, None)
+
+
+def turns_at(path: Path, u: float, requirements: Requirements) -> bool:
+    """Whether a path has a corner at a station, where the robot stands and turns in any case."""
+    via = station_at(path, u)
+    if via is None or not requirements.turns_at_rest or not 0.0 < via.u < len(path.spans):
+        return False
+    before, after = path.spans[round(via.u) - 1 : round(via.u) + 1, :, :2]
+    there, away = before[3:] - before[2:3], after[1:2] - after[:1]
+    return abs(float(angles_between(there, away)[0])) > CORNER_RAD
+
+
+def station_at(path: Path, u: float) -> PathVia | None:
+    """The station of a path at a parameter, if one is there."""
+    found = (via for via in path.vias if via.dwell > 0.0 and abs(via.u - u) <= PASSED_M)
+    return next(found, None)
 
 
 class BlockedTurnError(NoPathError):

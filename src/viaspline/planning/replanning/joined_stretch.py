@@ -143,12 +143,13 @@ def _join(
         spline_path, account = lay_nearby(sequence, old, world, requirements)
     spans = spline_path.spans
     if not len(departure.spans):
-        heading = float(path.heading(stretch.u))
-        refuse_blocked_turn(heading, spans[0], world, requirements)
+        came = stretch.u if departure.start.index is None else stretch.u - PASSED_M
+        refuse_blocked_turn(float(path.heading(came)), spans[0], world, requirements)
     head = head_until(path, stretch.u)
     first = len(head) + len(departure.spans)
     pieces = [head, departure.spans, spans]
-    vias = [*vias_until(path, stretch.u, len(head)), *spline_path.vias_from(first)]
+    laid = spline_path.vias_from(first)
+    vias = [*vias_until(path, stretch.u, len(head)), *laid[departure.start.index is not None :]]
     rejoin = None
     if tail is not None and rejoining is not None:
         rest = path.spans[round(tail.u) :]

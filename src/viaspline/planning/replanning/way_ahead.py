@@ -17,9 +17,9 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.replanning.departure import Leave
+from viaspline.planning.replanning.departure import Leave, rolling, turning_away, turns_at
 from viaspline.planning.replanning.joined_stretch import joined
-from viaspline.planning.replanning.rejoining import Rejoin, merging
+from viaspline.planning.replanning.rejoining import Rejoin, merging, turning
 from viaspline.planning.replanning.sides_ahead import spans_on_wrong_side
 from viaspline.planning.replanning.stretch import (
     PASSED_M,
@@ -109,6 +109,8 @@ class WayAhead:
     def joined(self, stretch: Stretch, leave: Leave, rejoin_by: Rejoin = merging) -> Solution:
         """The path with a stretch of it laid anew; see ``joined_stretch``.
 
+        Where the old one has a corner at a station it is left and taken up in any direction.
+
         Args:
             stretch: What of it.
             leave: How it is left.
@@ -118,6 +120,11 @@ class WayAhead:
             NoPathError: When there is no way.
             SpentBudgetError: When there is no time left to look for one.
         """
+        tail, needs = stretch.tail, self.requirements
+        if leave is rolling and turns_at(self.path, stretch.u, needs):
+            leave = turning_away
+        if rejoin_by is merging and tail is not None and turns_at(self.path, tail.u, needs):
+            rejoin_by = turning
         return joined(
             self.path, stretch, self.world, self.requirements, self.until, leave, rejoin_by
         )
