@@ -86,6 +86,8 @@ def pose_jump(
     rate = task.limits.max_yaw_rate
     most = 2.0 * (MAX_YAW_RATE_RADPS if rate is None else rate) * seconds
     allowed = JUMP_M + 2.0 * noise + JUMP_SPEED_SHARE * fastest * seconds
+    if task.model is None and rate is None and watch.command_at(watch.time) == 0.0:
+        most = math.inf  # it stands, and nothing says that it doesn't turn there at once
     if far <= allowed and abs(turned) <= most + JUMP_RAD + 2.0 * turned_noise:
         return None
     driven = 0.5 * (last.speed + measured.speed) * seconds
