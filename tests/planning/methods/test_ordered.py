@@ -308,3 +308,28 @@ def test_a_turn_at_a_station_is_as_sharp_as_the_robot_that_stands_there(
     assert plan.trajectory.end_time - 2.0 - straight < most_s
     assert plan.drivability.verdict == "good"
     assert plan.path.curvature_jumps().max() < 1e-6
+
+
+TURNED_INTO_DISCS: list[tuple[dict[str, Any], dict[str, Any], list[list[float]]]] = [
+    (
+        {"footprint": [[-0.3, -0.3], [0.9, -0.3], [0.9, 0.3], [-0.3, 0.3]]},
+        {"start": [11.491, 13.948], "via": [{"at": [6.57, 9.641], "dwell_s": 10}],
+         "goal": [7.152, 11.793]},
+        [[8.019, 6.712, 0.406], [8.591, 10.077, 0.625], [3.258, 12.016, 0.631],
+         [8.324, 0.007, 0.328], [3.738, 2.036, 0.486], [0.346, 5.068, 1.2],
+         [10.271, 9.976, 1.012], [1.499, 10.874, 0.712], [12.795, 11.066, 0.504],
+         [1.694, 11.711, 0.442], [5.63, 10.954, 0.962], [11.74, 6.001, 1.087]],
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("robot", "route", "discs"), TURNED_INTO_DISCS)
+def test_a_body_turns_at_a_station_only_where_it_has_room_to(
+    robot: dict[str, Any], route: dict[str, Any], discs: list[list[float]]
+) -> None:
+    limits = {"clearance_m": 0.2, "max_speed_mps": 2.0, "max_accel_mps2": 1.0}
+    plan = vs.plan(vs.Mission.model_validate({
+        "world": {"bounds": [-2, -2, 17, 17], "known": [disc(*one) for one in discs]},
+        "robot": limits | robot, "route": route,
+    }))  # fmt: skip
+    assert plan.certificate.holds

@@ -50,10 +50,13 @@ class HybridAStar:
         if isinstance(chains, NotFound):
             return _nothing(path, rho, chains)
         spans = np.concatenate([chain.spans for chain in chains])
-        if not path.is_clear(spans):  # the search knows the body by the discs that cover it
-            return GaveUp(("a search among poses, whose path the body itself doesn't clear",))
         joints = np.cumsum([0, *(len(chain.spans) for chain in chains)])
         spline_path = through_spans(path.sequence, spans, joints, ())
+        if not path.is_clear(spans):  # the search knows the body by the discs that cover it
+            roomy = problem.without_blocked_spots(spline_path)
+            if roomy is not None:
+                return self.lay(roomy, bound)
+            return GaveUp(("a search among poses, whose path the body itself doesn't clear",))
         if not path.keeps_sides(spline_path):
             return GaveUp(("a search among poses, whose path takes another side",))
         return Found(spline_path, path.cost(spline_path))

@@ -56,6 +56,9 @@ class JointHeadings:
         if poses is None:
             return GaveUp((f"{self.max_rows} rows of headings at the via points",))
         spline_path = problem.laid(poses)
+        roomy = problem.without_blocked_spots(spline_path)
+        if roomy is not None:
+            return self.lay(roomy, bound)
         return Found(spline_path, problem.path.cost(spline_path))
 
     def poses(

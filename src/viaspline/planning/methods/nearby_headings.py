@@ -36,6 +36,9 @@ class NearbyHeadings:
         if poses is None:
             return GaveUp(("headings at the via points about what is tight",))
         spline_path = problem.laid(poses)
+        roomy = problem.without_blocked_spots(spline_path)
+        if roomy is not None:
+            return self.lay(roomy, bound)
         return Found(spline_path, problem.path.cost(spline_path))
 
     def _sought(self, problem: TurnProblem) -> frozenset[int]:

@@ -6,7 +6,7 @@ Tested through ``planning/methods/test_ordered``.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -82,6 +82,20 @@ class TurnProblem:
             lay: Lays a clear turn path round bends, if it can.
         """
         return partial(self._laid_on_sides, lay)
+
+    def without_blocked_spots(self, laid: SplinePath) -> TurnProblem | None:
+        """It without the spots at which the body has no room to turn as a path does; None: it has.
+
+        Args:
+            laid: The path, whose legs are clear each by itself.
+        """
+        if self.path.requirements.footprint is None:
+            return None
+        count, begins = len(laid.spans), laid.joints
+        inner = [k for k in self.spots if self.path.sequence.closed or 0 < begins[k] < count]
+        about = {k: laid.spans[[begins[k] - 1, begins[k]], :, :2] for k in inner}
+        blocked = {k for k, spans in about.items() if not self.path.is_clear(spans)}
+        return replace(self, spots=frozenset(self.spots) - blocked) if blocked else None
 
     def laid(self, poses: Poses) -> SplinePath:
         """The path of turns between headings, or of a good driver's where those are sooner.
