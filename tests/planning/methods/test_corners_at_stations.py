@@ -13,8 +13,10 @@ import viaspline as vs
 from viaspline.machine.turns_on_spot import corners, seam_corner
 from viaspline.mission.spot_turning import foreseen_turning
 from viaspline.planning.alternatives.cleared_spline import ClearedSpline
+from viaspline.planning.checking.driving_time import driving_time
 from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.routing.router import Router
 from viaspline.planning.turning.driven_problem import DrivenProblem
@@ -190,3 +192,21 @@ def test_a_path_is_put_together_from_its_parts_as_it_was_cut() -> None:
         assert again.spans.tobytes() == whole.spans.tobytes()
         assert again.joints.tolist() == whole.joints.tolist()
         assert again.vias == whole.vias
+
+
+@pytest.mark.parametrize("dwell", [0.5, 3.0, 9.0])
+def test_a_turn_on_the_spot_costs_what_it_takes_beyond_the_stay(dwell: float) -> None:
+    via = [{"at": [10, 0], "dwell_s": dwell}]
+    asked = mission(DIFFERENTIAL, start=[0, 0], via=via, goal=[10, 9])
+    sequence, needs = via_sequence_of(asked), Requirements.of(asked)
+    lines = np.array([[[0, 0], [10, 0]], [[10, 0], [10, 9]]], np.float64)
+    spans = lines[:, :1] + np.linspace(0, 1, 4)[:, None] * (lines[:, 1:] - lines[:, :1])
+    laid = SplinePath.through(sequence, spans, np.array([0, 1, 2]), ())
+    problem = DrivenProblem(
+        sequence, vs.World(), needs, Router(vs.World(), needs.required, np.zeros((0, 2))),
+        cleared=ClearedSpline(laid, ()),
+    )  # fmt: skip
+    drives = driving_time(spans, needs.objective.pace, np.ones(3, np.bool_))
+    stands = max(needs.turning.time(math.pi / 2) - dwell, 0.0)
+    assert problem.cost(laid) - drives == pytest.approx(stands, abs=1e-12)
+    assert (stands == 0.0) == (dwell > 5.0)

@@ -6,11 +6,16 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.parts_at_corners import PartsAtCorners
 from viaspline.planning.turning.station_corners import StationCorners
+
+ROUNDING = 1e-9
+"""Of its length, by which a straight line may be longer than its ends are apart."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +40,8 @@ class CornersAtStations:
     def _in_parts(self, parts: PartsAtCorners, corners: StationCorners) -> Found[SplinePath] | None:
         laid: list[SplinePath] = []
         for part in parts.problems:
-            outcome = first_settled(self.methods, part)
+            line = _straight_line(part)
+            outcome = first_settled(self.methods, part) if line is None else Found(line, 0.0)
             if not isinstance(outcome, Found):
                 return None
             laid.append(outcome.value)
@@ -44,3 +50,13 @@ class CornersAtStations:
             return None
         whole = parts.joined(laid)
         return Found(whole, parts.whole.cost(whole))
+
+
+def _straight_line(part: DrivenProblem) -> SplinePath | None:
+    """A part as the straight line between its ends, where it is one: nothing is sooner."""
+    spline_path, sequence = part.cleared.spline_path, part.sequence
+    if len(sequence.legs) > 1 or part.cleared.passed or part.requirements.objective.pace.zones:
+        return None
+    start, goal = (via.at for via in sequence.vias)
+    is_line = spline_path.length <= (1.0 + ROUNDING) * float(np.linalg.norm(goal - start))
+    return spline_path if is_line else None

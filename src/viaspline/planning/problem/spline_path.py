@@ -17,6 +17,9 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.presentable.told_in_lines import told_in_lines
 
+SAME_HEADING_RAD = 1e-6
+"""A heading that jumps by more has a corner."""
+
 
 @told_in_lines
 @dataclass(frozen=True)
@@ -63,6 +66,15 @@ class SplinePath:
         found = [via.at for via in self.vias if first < via.u < last]
         return np.array(found).reshape(-1, self.spans.shape[2])
 
+    def jumps_at(self, vias: Sequence[int]) -> Floats:
+        """By how much the heading jumps at some via points [rad], (k,).
+
+        Args:
+            vias: Not the ends of a path that is open.
+        """
+        begins = self.joints[list(vias)]
+        return heading_jumps(self.spans[begins - 1], self.spans[begins])
+
     def rests(self, sequence: ViaSequence) -> Flags:
         """Where a robot that drives it stands still, of the joints of its spans, (m + 1,)."""
         return sequence.rests(self.joints, len(self.spans))
@@ -70,6 +82,19 @@ class SplinePath:
     def vias_from(self, first: int) -> tuple[PathVia, ...]:
         """The via points if the curve begins with span ``first`` of another one."""
         return tuple(replace(via, u=via.u + first) for via in self.vias)
+
+
+def heading_jumps(before: Floats, after: Floats) -> Floats:
+    """By how much the heading jumps from spans to those behind them [rad], left is positive, (n,).
+
+    Args:
+        before: Bézier control polygons [m], (n, 4, d).
+        after: The same.
+    """
+    there, away = before[:, 3] - before[:, 2], after[:, 1] - after[:, 0]
+    across = there[:, 0] * away[:, 1] - there[:, 1] * away[:, 0]
+    found: Floats = np.arctan2(across, (there * away)[:, :2].sum(axis=1))
+    return found
 
 
 def _user_via(sequence: ViaSequence, k: int, u: int) -> PathVia:

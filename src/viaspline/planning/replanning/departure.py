@@ -16,6 +16,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, turn_conflict
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
+from viaspline.planning.problem.spline_path import SAME_HEADING_RAD, heading_jumps
 from viaspline.planning.problem.via_sequence import RouteVia
 from viaspline.planning.replanning.stretch import (
     LEAST_RUN_OUT_M,
@@ -23,7 +24,6 @@ from viaspline.planning.replanning.stretch import (
     Stretch,
     room_to_run_out,
 )
-from viaspline.planning.turning.parts_at_corners import CORNER_RAD, angles_between
 from viaspline.world.world import World
 
 AT_REST = 0.05  # a run-out from a standstill, over that of a rolling robot
@@ -93,9 +93,8 @@ def turns_at(path: Path, u: float, requirements: Requirements) -> bool:
     via = station_at(path, u)
     if via is None or not requirements.turns_at_rest or not 0.0 < via.u < len(path.spans):
         return False
-    before, after = path.spans[round(via.u) - 1 : round(via.u) + 1, :, :2]
-    there, away = before[3:] - before[2:3], after[1:2] - after[:1]
-    return abs(float(angles_between(there, away)[0])) > CORNER_RAD
+    before, after = path.spans[round(via.u) - 1 : round(via.u) + 1, None]
+    return abs(float(heading_jumps(before, after)[0])) > SAME_HEADING_RAD
 
 
 def station_at(path: Path, u: float) -> PathVia | None:

@@ -15,12 +15,13 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.cleared_spline import ClearedSpline
 from viaspline.planning.alternatives.homotopy_classes import TautRow
-from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.spline_path import (
+    SAME_HEADING_RAD,
+    SplinePath,
+    heading_jumps,
+)
 from viaspline.planning.problem.via_sequence import lay
 from viaspline.planning.turning.driven_problem import DrivenProblem
-
-CORNER_RAD = 1e-6
-"""By so much a heading jumps at a corner."""
 
 
 @dataclass(frozen=True)
@@ -43,12 +44,9 @@ class PartsAtCorners:
             whole: What was asked for.
             laid: The path.
         """
-        spans, begins = laid.spans[:, :, :2], laid.joints[:-1]
-        vias = np.arange(len(begins)) if whole.sequence.closed else np.arange(1, len(begins))
-        there = spans[begins[vias] - 1, 3] - spans[begins[vias] - 1, 2]
-        away = spans[begins[vias], 1] - spans[begins[vias], 0]
-        turns = np.abs(angles_between(there, away))
-        return cls(whole, tuple(vias[turns > CORNER_RAD].tolist()))
+        vias = np.arange(0 if whole.sequence.closed else 1, len(laid.joints) - 1)
+        turns = np.abs(laid.jumps_at(vias.tolist()))
+        return cls(whole, tuple(vias[turns > SAME_HEADING_RAD].tolist()))
 
     @cached_property
     def ends(self) -> tuple[tuple[int, int], ...]:
@@ -96,9 +94,10 @@ class PartsAtCorners:
         """By how much the parts that were laid turn at each corner [rad], (k,)."""
         before = [*laid[-1:], *laid[:-1]] if self.whole.sequence.closed else laid[:-1]
         after = laid if self.whole.sequence.closed else laid[1:]
-        there = np.array([part.spans[-1, 3, :2] - part.spans[-1, 2, :2] for part in before])
-        away = np.array([part.spans[0, 1, :2] - part.spans[0, 0, :2] for part in after])
-        return angles_between(there, away)
+        return heading_jumps(
+            np.array([part.spans[-1] for part in before]),
+            np.array([part.spans[0] for part in after]),
+        )
 
     def _part(self, first: int, last: int) -> DrivenProblem:
         whole, count = self.whole, len(self.whole.sequence.legs)
@@ -150,15 +149,3 @@ def _detours(laid: SplinePath) -> np.ndarray:
     """The spans of a path that begin at its detour via points, (k,)."""
     at_vias = set(laid.joints.tolist())
     return np.array([int(via.u) for via in laid.vias if via.u not in at_vias], np.int64)
-
-
-def angles_between(first: Floats, then: Floats) -> Floats:
-    """The angles from directions to others [rad], left is positive, (n,).
-
-    Args:
-        first: (n, 2).
-        then: (n, 2).
-    """
-    across = first[:, 0] * then[:, 1] - first[:, 1] * then[:, 0]
-    found: Floats = np.arctan2(across, (first * then).sum(axis=1))
-    return found

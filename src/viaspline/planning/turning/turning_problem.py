@@ -21,7 +21,7 @@ from viaspline.planning.alternatives.unrouted_leg import unrouted
 from viaspline.planning.checking.conflicts import is_clear
 from viaspline.planning.checking.driving_time import driving_time, leg_time
 from viaspline.planning.problem.method import Found, GaveUp, Refusal
-from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.spline_path import SAME_HEADING_RAD, SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.routing.asked_sides import AskedSides
 from viaspline.planning.routing.path_problem import PathProblem
@@ -205,9 +205,24 @@ class TurningProblem(PathProblem):
         known = self._times.get(id(spline_path))
         if known is None:
             rests = spline_path.rests(self.sequence)
-            known = spline_path, driving_time(spline_path.spans, objective.pace, rests)
+            time = driving_time(spline_path.spans, objective.pace, rests)
+            known = spline_path, time + self._turning_time(spline_path)
             self._times[id(spline_path)] = known
         return known[1]
+
+    def _turning_time(self, spline_path: SplinePath) -> float:
+        """For how long a robot that turns on the spot along a path stands for that alone [s]."""
+        sequence, turning = self.sequence, self.requirements.turning
+        ends = () if sequence.closed else (0, len(sequence.vias) - 1)
+        spots = sorted(self.spots.difference(ends))
+        if not spots:
+            return 0.0
+        turns = zip(spots, spline_path.jumps_at(spots).tolist(), strict=True)
+        return sum(
+            max(turning.time(turn) - sequence.vias[via].dwell, 0.0)
+            for via, turn in turns
+            if abs(turn) > SAME_HEADING_RAD
+        )
 
     def price(self, spline_path: SplinePath) -> float:
         """What a path is compared with others by [s or m]: more than it costs if it is too sharp.
