@@ -16,6 +16,14 @@ import viaspline as vs
 SPEED, ACCEL = 5.0, 1.0  # [m/s], [m/s²] along the path and across it
 SIZE = 500.0
 PAIRS = 30  # of places on a map, one of which is taken
+TURNING: tuple[dict, ...] = (
+    {},
+    {"max_yaw_rate_degps": 90.0},
+    {"drive": {"differential": {"track_m": 0.5}}},
+    {"drive": {"differential": {"track_m": 0.5}, "lag_s": 0.15, "delay_s": 0.1},
+     "localization": {"position_noise_m": 0.02}},
+    {"drive": {"skid_steer": {"track_m": 0.6}}},
+)  # fmt: skip
 
 
 def vector_world(seed: int) -> vs.Mission:
@@ -141,6 +149,34 @@ def indoor_round(seed: int, file: Path) -> vs.Mission:
     return vs.Mission.model_validate({
         "world": {"known": [obstacle]},
         "robot": robot | {"max_lateral_accel_mps2": 0.6},
+        "route": {"start": places[0], "via": vias, **ends},
+    })  # fmt: skip
+
+
+def with_stations(seed: int, *, discs: int, closed: bool) -> vs.Mission:
+    """Three to seven places on 15 to 80 m, three of five of the vias stations, among discs or none.
+
+    By turns for a robot without a drive, one that turns by 90 degrees a second, and drives that
+    turn on the spot, two wheels with lag and noise among them.
+    """
+    random = np.random.default_rng((17, seed, discs, closed))
+    size, count = float(random.choice([15.0, 30.0, 80.0])), int(random.integers(3, 8))
+    known = [
+        {"circle": {"center": random.uniform(0, size, 2).tolist(), "radius": float(share) * size}}
+        for share in random.uniform(0.02, 0.08, discs)
+    ]
+    places: list[list[float]] = []
+    while len(places) < count:
+        at = random.uniform(1, size - 1, 2).round(3).tolist()
+        gaps = [math.dist(at, one["circle"]["center"]) - one["circle"]["radius"] for one in known]
+        if min(gaps, default=1.0) > 0.65 and all(math.dist(at, place) > 1.0 for place in places):
+            places.append(at)
+    stays = random.choice([0.5, 2.0, 4.0, 10.0], count) * (random.random(count) < 0.6)
+    vias = [{"at": at, "dwell_s": float(stay)} for at, stay in zip(places[1:], stays, strict=False)]
+    ends = {"closed": True} if closed else {"goal": vias.pop()["at"]}
+    robot = {"radius_m": 0.3, "clearance_m": 0.2, "max_speed_mps": 2.0, "max_accel_mps2": 1.0}
+    return vs.Mission.model_validate({
+        "world": {"known": known}, "robot": robot | TURNING[seed % len(TURNING)],
         "route": {"start": places[0], "via": vias, **ends},
     })  # fmt: skip
 

@@ -15,6 +15,9 @@
     rounds           rounds of five places, some of them stations, on the maps of a warehouse and
                      a depot: how many are sharper than the body, or have a corner where they
                      don't stop, and the time of all; 50 on each
+    stations         missions with stations, in the open, among discs, as rounds, on maps: the time
+                     over that in one curve (turn_on_spot: never), dwells counted, how many have
+                     corners, and what planning takes over that of the curve; 60 each
     signs            random missions, vector worlds, crops, rooms: how many turn the other way more
                      than twice as often as the taut route and twice for each via point; 20 each
     lanes            share of lanes over a lake that the path stays within 1 m of, and of how many
@@ -41,7 +44,15 @@ from pathlib import Path
 import numpy as np
 import shapely
 from best_curve import UnsolvedError, fastest, gentlest
-from driven_missions import crop, four_vias, indoor_round, lake, rooms, vector_world
+from driven_missions import (
+    crop,
+    four_vias,
+    indoor_round,
+    lake,
+    rooms,
+    vector_world,
+    with_stations,
+)
 from driven_plan import DrivenPlan
 from driving_time import DrivingLimits, straight_time
 from path_shape import turning_sides
@@ -205,6 +216,41 @@ def rounds(asked: argparse.Namespace) -> None:
         print(f"sharper than {radius} m anywhere, or with a corner: {sharp:.2%}")
 
 
+def stations(asked: argparse.Namespace) -> None:
+    kinds: dict[str, Callable[[int], vs.Mission]] = {
+        "open": lambda k: with_stations(k, discs=0, closed=False),
+        "discs": lambda k: with_stations(k, discs=12, closed=False),
+        "rounds": lambda k: with_stations(k, discs=0, closed=True),
+        "rounds among discs": lambda k: with_stations(k, discs=12, closed=True),
+        "warehouse": lambda k: indoor_round(k, EXAMPLES / "maps" / "warehouse.yaml"),
+        "depot": lambda k: indoor_round(k, EXAMPLES / "maps" / "depot.yaml"),
+    }
+    print(f"{'':18s}  plans  with corners  time mean    least   worst   all s  work")
+    for name, make in kinds.items():
+        ratios, total, work, turned = [], 0.0, np.zeros(2), 0
+        for mission in map(make, seeds(asked, 60)):
+            robot = mission.robot.model_copy(update={"turn_on_spot": "never"})
+            curve = mission.model_copy(update={"robot": robot})
+            plans: dict[str, vs.Plan] = {}
+            try:
+                spent, plans = in_turn(
+                    {"as asked": lambda mission=mission: vs.plan(mission),
+                     "curve": lambda curve=curve: vs.plan(curve)}, 2,
+                )  # fmt: skip
+            except vs.PlanningError:
+                continue
+            own, other = (plans[each].trajectory.end_time for each in ("as asked", "curve"))
+            turned += len(plans["as asked"].drivability.turns_on_spot) > 0
+            ratios.append(own / other)
+            total += own
+            work += (spent["as asked"], spent["curve"])
+        print(
+            f"{name:18s} {len(ratios):6d} {turned:13d} {np.mean(ratios):10.4f} {min(ratios):8.3f} "
+            f"{max(ratios):7.4f} {total:7.0f} {work[0] / work[1]:5.2f}",
+            flush=True,
+        )
+
+
 def signs(asked: argparse.Namespace) -> None:
     kinds: dict[str, Callable[[int], vs.Mission]] = {
         "four vias": four_vias, "vector": vector_world, "crops": lambda k: crop(k, asked.maps),
@@ -327,6 +373,7 @@ TABLES: dict[str, Callable[[argparse.Namespace], None]] = {
     "sharp": sharp,
     "fatter": fatter,
     "rounds": rounds,
+    "stations": stations,
     "signs": signs,
     "lanes": lanes,
     "times": times,
