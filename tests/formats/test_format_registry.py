@@ -34,6 +34,10 @@ def test_every_format_of_the_list_is_there_with_all_that_a_format_has() -> None:
         ("a.mission", " {}", "QgcPlan"),
         ("a.mission", TABLE, "QgcWpl"),
         ("a.json", '{"mission": 1}', "QgcPlan"),
+        ("a.json", '{"MAV_AUTOPILOT": 3, "items": []}', "QgcPlan"),
+        ("a.json", '{"route": {"start": [0, 0]}}', "MissionYaml"),
+        ("a.JSON", '{"rout": 1}', "MissionYaml"),
+        ("a.json", '{"world": {},\n"fleet": [{"name": "r1"}]}', "FleetYaml"),
         ("a", "\n" + TABLE, "QgcWpl"),
     ],
 )
@@ -51,7 +55,8 @@ def test_what_is_of_no_kind_is_refused_with_those_that_there_are(text: str, prob
     (fault,) = caught.value.faults
     assert problem in fault.problem
     assert fault.remedy == (
-        "understood are viaspline's YAML of a fleet (.yaml, .yml), viaspline's YAML (.yaml, .yml), "
+        "understood are viaspline's YAML of a fleet (.yaml, .yml, .json), viaspline's YAML "
+        "(.yaml, .yml, .json), "
         "QGroundControl's plans (.plan, and .mission in JSON) and texts that begin with "
         "QGC WPL 110 (.txt, .waypoints, .mission)"
     )
@@ -74,3 +79,8 @@ def test_what_a_format_writes_it_recognises_and_reads_again(
 
 def test_a_file_of_another_ending_is_saved_in_no_format() -> None:
     assert format_to_save(Path("a.kml")) is None
+
+
+def test_a_result_is_no_mission() -> None:
+    with pytest.raises(MissionError, match=r"a\.json: is a result .*; give the planned-\*\.yaml"):
+        format_of(Path("a.json"), '{"mission": {}, "proven_means": "docs/proven.md"}')

@@ -35,6 +35,14 @@ def test_plans_and_waypoints_of_others_are_opened_and_saved_as_yaml(
     assert base64.b64decode(exported["data"]) == (out / "plan.json").read_bytes()
 
 
+def test_a_fleet_in_json_is_refused_with_what_to_call_it(start: START, tmp_path: Path) -> None:
+    fleet = '{"fleet": [{"name": "r1", "route": {"start": [0, 0], "goal": [9, 0]}}]}'
+    (tmp_path / "fleet.json").write_text(fleet)
+    with start(tmp_path).client() as client:
+        message = client.ask("open", "refused", name="fleet.json")["message"]
+    assert message == "'fleet.json' is a fleet in JSON: call it 'fleet.yaml'"
+
+
 def test_missions_are_saved_as_plans_and_waypoints_with_what_they_can_not_carry(
     start: START, patrol: Path
 ) -> None:

@@ -33,8 +33,8 @@ _LISTS: Final = frozenset({"known", "fences", "speed_zones"})
 class FleetYaml(MissionFormat["Fleet"]):
     """Many robots in one world."""
 
-    description: ClassVar[str] = "viaspline's YAML of a fleet (.yaml, .yml)"
-    endings: ClassVar[tuple[str, ...]] = (".yaml", ".yml")
+    description: ClassVar[str] = "viaspline's YAML of a fleet (.yaml, .yml, .json)"
+    endings: ClassVar[tuple[str, ...]] = (".yaml", ".yml", ".json")
     saved_endings: ClassVar[tuple[str, ...]] = ()
 
     def sniff(self, path: Path, text: str) -> bool:

@@ -47,6 +47,9 @@ def format_of(path: Path, text: str) -> AnyFormat:
     Raises:
         MissionError: It is empty, or of no kind that is understood.
     """
+    if '"proven_means"' in text:
+        problem = "is a result of viaspline's, not a mission"
+        raise refusal(str(path), Place(""), problem, "give the planned-*.yaml of its folder")
     found = next((each for each in formats() if each.sniff(path, text)), None)
     if found is not None:
         return found

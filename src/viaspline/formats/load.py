@@ -26,10 +26,10 @@ def load(
 ) -> Mission | Fleet:
     """Read a mission, or a fleet, from a file of any kind that is understood.
 
-    YAML (``.yaml``, ``.yml``; with the key ``fleet`` it is a fleet), QGroundControl's ``.plan`` and
-    older JSON, and ``QGC WPL`` texts whatever their suffix. In files with latitudes and longitudes
-    the start, and the origin of the mission's frame, is the home position if there is a plausible
-    one (not 0/0), else the first item with a position.
+    YAML (``.yaml``, ``.yml``, or ``.json``, for JSON is YAML; with the key ``fleet`` it is a
+    fleet), QGroundControl's ``.plan`` and older JSON, and ``QGC WPL`` texts whatever their suffix.
+    In files with latitudes and longitudes the start, and the origin of the mission's frame, is the
+    home position if there is a plausible one (not 0/0), else the first item with a position.
 
     Altitudes above terrain take a ground: with one, such a file is a mission in space, in which
     take-off, landing, climbs and what is looked at are flown. Without, it is a planar mission, and

@@ -11,6 +11,7 @@ from typing import ClassVar, Final
 from viaspline.formats.items import LatLon
 from viaspline.formats.mission_format import MissionFormat, Whereabouts, Written
 from viaspline.formats.named_files import route_data, world_data
+from viaspline.formats.outermost_keys import PLAN_KEYS, outermost_keys
 from viaspline.formats.said_origin import said_origin
 from viaspline.formats.whole_file import write_whole
 from viaspline.formats.yaml_document import yaml_document
@@ -24,13 +25,19 @@ _LISTS: Final = frozenset({"known", "unseen", "fences", "speed_zones", "via"})
 class MissionYaml(MissionFormat[Mission]):
     """viaspline's own format."""
 
-    description: ClassVar[str] = "viaspline's YAML (.yaml, .yml)"
-    endings: ClassVar[tuple[str, ...]] = (".yaml", ".yml")
-    saved_endings: ClassVar[tuple[str, ...]] = endings
+    description: ClassVar[str] = "viaspline's YAML (.yaml, .yml, .json)"
+    endings: ClassVar[tuple[str, ...]] = (".yaml", ".yml", ".json")
+    saved_endings: ClassVar[tuple[str, ...]] = (".yaml", ".yml")
 
     def sniff(self, path: Path, text: str) -> bool:
-        """Whether the file is called so: what is wrong with a text is told as a fault of YAML."""
-        return path.suffix.lower() in self.endings
+        """Whether the file is called so: what is wrong with a text is told as a fault of YAML.
+
+        JSON is YAML, too, but for what QGroundControl has written.
+        """
+        ending = path.suffix.lower()
+        if ending == ".json":
+            return not PLAN_KEYS.intersection(outermost_keys(text))
+        return ending in self.endings
 
     def read(self, text: str, source: str) -> Mission:
         """The mission that a text describes; each of its faults has its line and column."""

@@ -8,6 +8,7 @@ Tested through ``formats/test_fleet_yaml``.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Final
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
@@ -18,6 +19,9 @@ from ruamel.yaml.events import (
     NodeEvent,
     ScalarEvent,
 )
+
+PLAN_KEYS: Final = frozenset({"fileType", "mission", "items", "plannedHomePosition"})
+"""Those of QGroundControl's files, of which no mission or fleet has any."""
 
 
 def outermost_keys(text: str) -> Iterator[str]:

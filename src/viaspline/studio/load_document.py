@@ -18,6 +18,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.unplaced_faults import located
 from viaspline.studio import yaml_round_trip
 from viaspline.studio.document import Document, check_size
+from viaspline.studio.refused_error import RefusedError
 from viaspline.studio.save_document import is_yaml
 
 
@@ -46,7 +47,7 @@ def opened(path: Path) -> LoadedDocument:
 
     Raises:
         MissionError: It can't be read, or isn't what its name says.
-        RefusedError: It is too large for the studio.
+        RefusedError: It is too large for the studio, or a fleet in JSON.
     """
     try:
         stat = path.stat()
@@ -87,6 +88,7 @@ def _understood(path: Path) -> tuple[Document, tuple[str, ...], LatLon | None]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         mission = load(path)
-    assert isinstance(mission, Mission), "what isn't YAML is no fleet"
+    if not isinstance(mission, Mission):
+        raise RefusedError(f"'{path.name}' is a fleet in JSON: call it '{path.stem}.yaml'")
     document = yaml_round_trip.read(yaml_text(mission, path.parent))
     return document, tuple(str(warning.message) for warning in caught), origin_of(path)

@@ -22,7 +22,7 @@ SAVED_SUFFIXES: Final = tuple(ending for each in formats() for ending in each.sa
 
 def is_yaml(path: Path) -> bool:
     """Whether a file holds the document itself, not way points with latitudes and longitudes."""
-    return path.suffix.lower() in MissionYaml.endings
+    return path.suffix.lower() in MissionYaml.saved_endings
 
 
 def waypoints_of(mission: Mission, path: Path, origin: LatLon | None) -> Written:
