@@ -6,6 +6,7 @@ Tested through ``test_cli``.
 from __future__ import annotations
 
 import os
+import sys
 import traceback
 from typing import Any
 
@@ -13,6 +14,7 @@ import click
 
 from viaspline.errors import GaveUpError, MissionError, NoPathError, ViasplineError
 from viaspline.report.terminal.interrupts import Terminated, remembered
+from viaspline.report.terminal.standard_streams import nobody_listens
 from viaspline.report.terminal.terminal_lines import gave_up, no_path, say_error, telling_warnings
 
 DEFECT, WRONG, NO_PATH, NOT_REACHED, GAVE_UP = 1, 2, 3, 4, 5
@@ -33,6 +35,13 @@ class Commands(click.Group):
         """Take a command in."""
         cmd.help = unwrapped(cmd.help)
         super().add_command(cmd, name)
+
+    def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
+        """Read what stands before a command; help and version are said here."""
+        try:
+            return super().make_context(*args, **kwargs)
+        except BrokenPipeError as error:  # click would call it a failure
+            raise click.exceptions.Exit(told(error)) from None
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run a command."""
@@ -80,6 +89,8 @@ def told(error: BaseException) -> int:
     if isinstance(error, MemoryError):
         say_error("gave up: there is not enough memory; make the mission or its maps smaller")
         return GAVE_UP
+    if isinstance(error, BrokenPipeError) and nobody_listens(sys.stdout):
+        return 0  # whoever reads the first lines of a help has what he wants
     if isinstance(error, OSError):  # the machine's trouble, not the program's
         name = "" if error.filename is None else f"{error.filename}: "
         say_error(f"{name}{(error.strerror or str(error)).lower()}")

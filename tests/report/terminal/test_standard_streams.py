@@ -27,6 +27,18 @@ def test_an_output_that_is_closed_is_no_error(words: str) -> None:
     assert (done.returncode, said) == (0, [])
 
 
+@pytest.mark.parametrize("words", ["--help", "plan --help", "--version", "check --schema"])
+def test_a_reader_that_is_gone_before_anything_is_said_is_no_error(words: str) -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(
+        [sys.executable, "-m", "viaspline", *words.split()],
+        stdout=writing, stderr=subprocess.PIPE, timeout=120, check=False,
+    )  # fmt: skip
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
 @pytest.mark.parametrize("words", [f"check {MISSION}", "--help", "check --schema"])
 def test_an_output_that_is_full_is_said_on_the_error_stream(words: str) -> None:
     done = run(words, "> /dev/full")

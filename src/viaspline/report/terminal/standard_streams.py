@@ -54,6 +54,20 @@ def _fit(stream: TextIO | None, number: int) -> TextIO:
     return stream
 
 
+def nobody_listens(stream: TextIO) -> bool:
+    """Whether the reader of a stream is gone; the rest then goes nowhere.
+
+    Only another write tells: what failed to be written is kept by no stream.
+    """
+    try:
+        stream.write("\n")
+        stream.flush()
+    except OSError:
+        discard(stream)
+        return True
+    return False
+
+
 def discard(stream: TextIO) -> None:
     """Send the rest of a stream nowhere, as nobody takes it any more."""
     with suppress(OSError, ValueError), open(os.devnull, "w") as nowhere:
