@@ -22,7 +22,7 @@ class RobotState:
         speed: Forward, along its body [m/s].
         speed_across: To the left, across its body [m/s]; 0 of a robot that can't.
         stamp: When that was measured, by the clock of the steps [s]; None: now, whenever it is
-            handed in. What is older than 0.2 s stops the robot.
+            handed in. What is older than 0.2 s stops the robot, and what is stamped as far ahead.
 
     Raises:
         GeometryError: When the position is no row of numbers.

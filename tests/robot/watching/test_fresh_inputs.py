@@ -169,3 +169,26 @@ def test_a_robot_that_follows_exactly_may_leave_out_steps(slalom_of: Any) -> Non
         _, nav = nav.step(nav.reference(time), (), time)
         kinds += [event.kind for event in nav.events]
     assert set(kinds) == {"started", "via", "reached"}
+
+
+@pytest.mark.parametrize("what", ["pose", "scan"])
+def test_a_stamp_far_ahead_tells_no_age(slalom_of: Any, discs: Any, what: str) -> None:
+    nav = Navigator(slalom_of(drive=DRIVE, sensor=LIDAR))
+    state, see = RobotState((0.0, 0.0), 0.0, 0.0), look(nav, discs)
+    told, speeds = [], []
+    for tick in range(40):
+        time = 0.05 * tick
+        ahead = 1.8e9 if 10 <= tick < 30 else 0.1  # a wall's clock; a little ahead is of now
+        pose = replace(state, stamp=ahead + time if what == "pose" else None)
+        scan = see(state, tick, time)
+        scan = replace(scan, stamp=ahead + time) if what == "scan" else scan
+        command, nav = nav.step(pose, scan, time)
+        told += [event for event in nav.events if event.kind == "stale"]
+        speeds.append(command.velocity[0])
+    assert [(event.time, event.data["what"]) for event in told] == [(0.5, what)]
+    assert told[0].message == (
+        f"stops: the stamp of its {what} is 1800000000.00 s ahead of its clock, 0.20 s are allowed"
+    )
+    assert told[0].data["age_s"] == pytest.approx(-1.8e9)
+    assert speeds[29] == 0.0
+    assert speeds[39] > 0.0

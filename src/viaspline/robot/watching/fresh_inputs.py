@@ -1,7 +1,8 @@
 """Whether what a robot is handed is of now: its pose, its scans, and its clock.
 
 A robot that drives by what was true a while ago drives blind. So what is older than ``STALE_S``
-stops it; it goes on when something newer comes.
+stops it; it goes on when something newer comes. A stamp as far ahead of the clock is of another
+clock, and tells no age: a sensor that hangs would count as fresh until then.
 """
 
 from __future__ import annotations
@@ -74,8 +75,8 @@ def fresh_inputs(
         time: Now [s].
     """
     limit = max(STALE_S, 2.0 * task.reaction)
-    seen = _seen(task, watch, sensed, time)
-    seen = _heard(seen, state, time)
+    seen = _seen(task, watch, sensed, time, limit)
+    seen = _heard(seen, state, time, limit)
     ages = {"pose": time - seen.at, "scan": _scan_age(task, seen, time)}
     late = time - watch.time
     follows_exactly = task.model is None and not _has_lidar(task)
@@ -84,16 +85,16 @@ def fresh_inputs(
     place, events = schedule.place(progress.distance), []
     slip = ROUNDING_S * (1.0 + abs(time))
     for what, age in ages.items():
-        if age <= limit + slip:
+        if abs(age) <= limit + slip:
             seen = seen.without_telling(what)
         elif what not in seen.told:
             seen = seen.having_told(what, age)
-            words = WORDS[what].format(age, limit)
+            words = (WORDS[what] if age > 0.0 else AHEAD).format(abs(age), limit, what)
             data = {"what": what, "age_s": age, "allowed_s": limit}
             events.append(Event("stale", time, place, words, data))
-    why = next((what for what in ("pose", "scan") if ages[what] > limit + slip), None)
+    why = next((what for what in ("pose", "scan") if abs(ages[what]) > limit + slip), None)
     here = state
-    if ages["pose"] > limit + slip:
+    if why == "pose":
         here = as_modelled(task, progress, schedule, state, time)
     elif ages["pose"] > slip and state.stamp is not None:
         here = carried_on(state, ages["pose"])
@@ -109,19 +110,27 @@ WORDS = {
     "step": "has driven blind: the step before was {:.2f} s ago, {:.2f} s are allowed",
 }
 
+AHEAD = "stops: the stamp of its {2} is {0:.2f} s ahead of its clock, {1:.2f} s are allowed"
+
 
 def _has_lidar(task: DriveTask) -> bool:
     sensor = task.mission.robot.sensor
     return sensor is not None and sensor.lidar is not None
 
 
-def _seen(task: DriveTask, watch: Watch, sensed: Sensed, time: float) -> Watch:
+def _taken(stamp: float, time: float, limit: float) -> float:
+    """When something was taken by its stamp [s]: now, if that is no more than a limit ahead."""
+    return stamp if stamp > time + limit else min(stamp, time)
+
+
+def _seen(task: DriveTask, watch: Watch, sensed: Sensed, time: float, limit: float) -> Watch:
     """With the time of a scan; the first is waited for from the first step on."""
     if not _has_lidar(task):
         return watch
     if isinstance(sensed, Scan) and not sensed.shows_nothing:
-        taken = time if sensed.stamp is None else min(sensed.stamp, time)
-        return replace(watch, scanned_at=max(taken, watch.scanned_at))
+        taken = time if sensed.stamp is None else _taken(sensed.stamp, time, limit)
+        last = watch.scanned_at if watch.scanned_at <= time else taken
+        return replace(watch, scanned_at=max(taken, last))
     return replace(watch, scanned_at=time) if math.isinf(watch.scanned_at) else watch
 
 
@@ -129,13 +138,13 @@ def _scan_age(task: DriveTask, watch: Watch, time: float) -> float:
     return time - watch.scanned_at if _has_lidar(task) else 0.0
 
 
-def _heard(watch: Watch, state: RobotState, time: float) -> Watch:
+def _heard(watch: Watch, state: RobotState, time: float, limit: float) -> Watch:
     """With what was measured, and when: a pose that stands still while it says that it moves."""
     before = watch.measured
     same = before is not None and (state.position, state.speed) == (before.position, before.speed)
     frozen = same and abs(state.speed) > MOVING_MPS
     moved_at = watch.moved_at if frozen else time
-    at = moved_at if state.stamp is None else min(state.stamp, time)
+    at = moved_at if state.stamp is None else _taken(state.stamp, time, limit)
     return replace(watch, measured=state, at=at, moved_at=moved_at)
 
 
