@@ -24,7 +24,7 @@ from odd_fleet_drives import NavigatorDrive
 import viaspline as vs
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.saved.course_record import CourseRecord
-from viaspline.formats.fleet_yaml import write_fleet
+from viaspline.formats.fleet_yaml import fleet_text
 from viaspline.report.files.fleet_json import fleet_json
 from viaspline.report.files.fleet_results import folder_names, write_robots
 
@@ -231,7 +231,7 @@ def save_without_picture(plan: FleetPlan, folder: Path) -> None:
     names = folder_names(one.name for one in plan.fleet.members)
     (folder / "fleet.json").write_text(fleet_json(plan, "fleet", names))
     (folder / "courses.npz").write_bytes(CourseRecord.of(plan).to_bytes())
-    write_fleet(plan.fleet, folder / "planned-fleet.yaml")
+    (folder / "planned-fleet.yaml").write_text(fleet_text(plan.fleet, folder), "utf-8")
     write_robots(plan, folder, lambda share: None)
 
 

@@ -31,6 +31,7 @@ from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.routing.visit_order import ordered
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.named_columns import Table
+from viaspline.presentable.rounded_number import rounded
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.spacetime.plan_among import plan_among
@@ -83,8 +84,8 @@ class Plan(ShownValue, SavedValue, ComparedByValue):
     def __repr__(self) -> str:
         clear = self.certificate.clearance + PROOF_SLACK_M  # what just touches isn't -0.00 m off
         return (
-            f"<Plan: {self.path.length:.1f} m in {self.trajectory.duration:.1f} s, "
-            f"{clear:.2f} m clear, {len(self.path.vias)} via points>"
+            f"<Plan: {rounded(self.path.length, 1)} m in {self.trajectory.duration:.1f} s, "
+            f"{rounded(clear, 2)} m clear, {len(self.path.vias)} via points>"
         )
 
     @property

@@ -8,7 +8,7 @@ from click.testing import CliRunner, Result
 import viaspline as vs
 from viaspline.cli import cli
 from viaspline.formats.mission_format import Whereabouts
-from viaspline.formats.mission_yaml import write_yaml
+from viaspline.formats.mission_yaml import yaml_text
 from viaspline.formats.qgc_plan import QgcPlan
 from viaspline.formats.qgc_wpl import QgcWpl
 from viaspline.report.proven_reference import PROVEN_WORDS
@@ -127,19 +127,24 @@ def placed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     known = [{"circle": {"center": [12, 2], "radius": 2}}]
     world = {"known": known, "origin_deg": [47.3977, 8.5456]}
     mission = vs.Mission.model_validate({"world": world, "route": route})
-    write_yaml(mission, root / "of-yaml.yaml")
+    (root / "of-yaml.yaml").write_text(yaml_text(mission, root), "utf-8")
     files["yaml"] = root / "of-yaml.yaml"
     for kind in (QgcPlan(), QgcWpl()):
         file = root / f"of-{kind.saved_endings[0][1:]}{kind.saved_endings[0]}"
         file.write_text(kind.write(mission, Whereabouts()).text)
         files[kind.saved_endings[0][1:]] = file
     beside = root / "of-studio.yaml"
-    write_yaml(vs.Mission.model_validate({"world": {"known": known}, "route": route}), beside)
+    beside.write_text(
+        yaml_text(
+            vs.Mission.model_validate({"world": {"known": known}, "route": route}), beside.parent
+        ),
+        "utf-8",
+    )
     (root / "of-studio.yaml.studio.json").write_text('{"origin": [47.3977, 8.5456]}')
     files["studio"] = beside
     flight = {"start": [0, 0], "takeoff": {"to_agl_m": 8}, "goal": [40, 0, 410]}
     flown = {"world": {**world, "ground": {"flat_m": 400}}, "route": flight}
-    write_yaml(vs.Mission.model_validate(flown), root / "of-flight.yaml")
+    (root / "of-flight.yaml").write_text(yaml_text(vs.Mission.model_validate(flown), root), "utf-8")
     files["flight"] = root / "of-flight.yaml"
     return files
 

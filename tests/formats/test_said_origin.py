@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import viaspline as vs
-from viaspline.formats.mission_yaml import write_yaml
+from viaspline.formats.mission_yaml import yaml_text
 from viaspline.formats.qgc_wpl import QgcWpl
 from viaspline.formats.said_origin import said_origin
 from viaspline.mission.fleet.fleet import Fleet
@@ -41,7 +41,7 @@ def test_what_says_no_place_has_none(data: object) -> None:
 def test_a_mission_in_yaml_says_where_it_lies(tmp_path: Path) -> None:
     file = tmp_path / "yard.yaml"
     mission = Mission.model_validate({"world": {"origin_deg": [47.1, 8.5]}, "route": ROUTE})
-    write_yaml(mission, file)
+    file.write_text(yaml_text(mission, file.parent), "utf-8")
     assert vs.load(file) == mission
     assert vs.origin_of(file) == (47.1, 8.5)
 

@@ -9,7 +9,7 @@ import pytest
 
 from viaspline.errors import MissionError
 from viaspline.formats.load import load
-from viaspline.formats.mission_yaml import write_yaml
+from viaspline.formats.mission_yaml import yaml_text
 from viaspline.mission.model import Mission
 
 LINE = [[0, 0, 3, 3], [20, 0, 3, 3], [20, 20, 3, 3], [0, 20, 3, 3]]
@@ -43,7 +43,7 @@ def test_a_mission_with_a_file_is_written_with_its_name_and_read_the_same(tmp_pa
     (tmp_path / "a").mkdir()
     (tmp_path / "a" / "track.csv").write_text("0,0,3,3\n40,0,3,3\n")
     first = mission({"csv": str(tmp_path / "a" / "track.csv")})
-    write_yaml(first, tmp_path / "m.yaml")
+    (tmp_path / "m.yaml").write_text(yaml_text(first, tmp_path), "utf-8")
     assert 'csv: "a/track.csv"' in (tmp_path / "m.yaml").read_text()
     assert load(tmp_path / "m.yaml") == first
     assert Mission.model_validate(first.model_dump()) == first
@@ -51,7 +51,7 @@ def test_a_mission_with_a_file_is_written_with_its_name_and_read_the_same(tmp_pa
 
 def test_a_mission_with_a_line_is_written_and_read_the_same(tmp_path: Path) -> None:
     first = mission({"line": [[0, 0, 3, 3], [40, 0.5, 3, 3]]}, laps=1)
-    write_yaml(first, tmp_path / "m.yaml")
+    (tmp_path / "m.yaml").write_text(yaml_text(first, tmp_path), "utf-8")
     assert load(tmp_path / "m.yaml") == first
 
 

@@ -11,7 +11,6 @@ from viaspline.formats.mission_format import MissionFormat, Whereabouts, Written
 from viaspline.formats.named_files import relative, route_data, world_data
 from viaspline.formats.outermost_keys import outermost_keys
 from viaspline.formats.said_origin import said_origin
-from viaspline.formats.whole_file import write_whole
 from viaspline.formats.yaml_document import yaml_document
 from viaspline.formats.yaml_lines import flow, section
 from viaspline.mission.validation import Context
@@ -67,23 +66,6 @@ class FleetYaml(MissionFormat["Fleet"]):
     def write(self, fleet: Fleet, where: Whereabouts) -> Written:
         """All of a fleet; what has its default value is left out."""
         return Written(fleet_text(fleet, where.folder), ())
-
-
-def write_fleet(fleet: Fleet, path: str | Path) -> None:
-    """Write a fleet to a YAML file; reading it gives an equal fleet.
-
-    The file is there as a whole or not at all. Maps of squares and the missions of robots that
-    have a file are named, not written: they have to stay where they are.
-
-    Args:
-        fleet: The fleet.
-        path: The file; an old one is replaced.
-
-    Raises:
-        OutputError: The file can't be written, or the fleet has a grid or a robot's mission that
-            was made in memory.
-    """
-    write_whole(path, fleet_text(fleet, Path(path).parent))
 
 
 def fleet_text(fleet: Fleet, folder: str | Path = ".") -> str:

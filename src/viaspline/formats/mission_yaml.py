@@ -13,7 +13,6 @@ from viaspline.formats.mission_format import MissionFormat, Whereabouts, Written
 from viaspline.formats.named_files import route_data, world_data
 from viaspline.formats.outermost_keys import PLAN_KEYS, outermost_keys
 from viaspline.formats.said_origin import said_origin
-from viaspline.formats.whole_file import write_whole
 from viaspline.formats.yaml_document import yaml_document
 from viaspline.formats.yaml_lines import section
 from viaspline.mission.model import Mission
@@ -51,22 +50,6 @@ class MissionYaml(MissionFormat[Mission]):
     def write(self, mission: Mission, where: Whereabouts) -> Written:
         """All of a mission; what has its default value is left out."""
         return Written(yaml_text(mission, where.folder), ())
-
-
-def write_yaml(mission: Mission, path: str | Path) -> None:
-    """Write a mission to a YAML file; reading it gives an equal mission.
-
-    The file is there as a whole or not at all: it is written beside its place and then moved. Maps
-    of squares are named, not written: they have to stay where they are.
-
-    Args:
-        mission: The mission.
-        path: The file; an old one is replaced.
-
-    Raises:
-        OutputError: The file can't be written, or the mission has a grid that was made in memory.
-    """
-    write_whole(path, yaml_text(mission, Path(path).parent))
 
 
 def yaml_text(mission: Mission, folder: str | Path = ".") -> str:

@@ -1,7 +1,4 @@
-"""Text files that are there as a whole or not at all.
-
-Tested through ``formats/test_mission_yaml``.
-"""
+"""Text files that are there as a whole or not at all."""
 
 from __future__ import annotations
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from viaspline.presentable.rounded_number import LEAST_TOLD, rounded
+
 JUST_TOUCHING_M = 1e-6  # as ``PROOF_SLACK_M``, which takes numba to import [m]
 
 
@@ -13,6 +15,8 @@ def metres(value: float | None, digits: int = 2) -> str:
     Example:
         >>> metres(0.5), metres(812.345, 1), metres(23456.7), metres(float("inf")), metres(None)
         ('0.50 m', '812.3 m', '23.46 km', 'unlimited', '–')
+        >>> metres(0.183, 1), metres(0.0046), metres(0.00002)
+        ('0.18 m', '0.0046 m', '2e-05 m')
     """
     if value is None or math.isnan(value):
         return "–"
@@ -20,9 +24,9 @@ def metres(value: float | None, digits: int = 2) -> str:
         return "unlimited"
     if abs(value) >= 10_000:
         return f"{value / 1000:.2f} km"
-    if value and abs(value) < 0.5 * 10**-digits:
+    if 0.0 < abs(value) < LEAST_TOLD:
         return f"{value:.1g} m"
-    return f"{value + 0.0:.{digits}f} m"
+    return f"{rounded(value, digits)} m"
 
 
 def down(value: float) -> str:
@@ -33,10 +37,12 @@ def down(value: float) -> str:
     Example:
         >>> down(0.5059), down(0.49999), down(0.4999999), down(49.4999), down(float("inf"))
         ('0.505 m', '0.499 m', '0.500 m', '49.4 m', 'unlimited')
+        >>> down(0.00467)
+        '0.0046 m'
     """
     if not math.isfinite(value):
         return metres(value)
-    digits = 3 if value < 10 else 1
+    digits = 1 if value >= 10 else 4 if LEAST_TOLD <= value < 0.01 else 3
     return metres(math.floor((value + JUST_TOUCHING_M) * 10**digits) / 10**digits, digits)
 
 
@@ -58,13 +64,13 @@ def seconds(value: float | None) -> str:
     """A time.
 
     Example:
-        >>> seconds(4.25), seconds(512.3), seconds(7384), seconds(None)
-        ('4.2 s', '8 min 32 s', '2 h 03 min', '–')
+        >>> seconds(4.25), seconds(0.043), seconds(512.3), seconds(7384), seconds(None)
+        ('4.2 s', '0.043 s', '8 min 32 s', '2 h 03 min', '–')
     """
     if value is None or not math.isfinite(value):
         return "–"
     if value < 100:
-        return f"{value:.1f} s"
+        return f"{rounded(value, 1)} s"
     minutes, rest = divmod(round(value), 60)
     if minutes < 100:
         return f"{minutes} min {rest:02d} s"
@@ -87,15 +93,17 @@ def curvature(value: float | None) -> str:
 
 
 def place(point: tuple[float, ...] | None) -> str:
-    """A position in metres.
+    """A position in metres: to the centimetre, within a metre of the origin more exactly.
 
     Example:
-        >>> place((12.345, -0.0))
-        '(12.35, 0.00)'
+        >>> place((12.345, -0.0)), place((0.1004, 0.0607))
+        ('(12.35, 0.00)', '(0.100, 0.061)')
     """
     if point is None:
         return "–"
-    return "(" + ", ".join(f"{round(x, 2) + 0.0:.2f}" for x in point) + ")"
+    far = max(map(abs, point))
+    digits = 2 if far >= 1.0 or far < LEAST_TOLD else 2 - math.floor(math.log10(far))
+    return "(" + ", ".join(f"{round(x, digits) + 0.0:.{digits}f}" for x in point) + ")"
 
 
 def nice(value: float) -> float:

@@ -21,6 +21,7 @@ from viaspline.planner import Plan
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.moving_value import MovingValue
 from viaspline.presentable.named_columns import Table, coordinates, named_columns
+from viaspline.presentable.rounded_number import rounded
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.presentable.told_in_lines import told_in_lines
@@ -218,10 +219,8 @@ class Run(ShownValue, MovingValue, SavedValue, ComparedByValue):
 
     def __repr__(self) -> str:
         end = told_in_short(self.reached, self.reason, self.encounters)
-        return (
-            f"<Run: {self.duration:.1f} s, {self.least_clearance + PROOF_SLACK_M:.2f} m clear, "
-            f"{len(self.replans)} re-plans, {end}>"
-        )
+        clear = rounded(self.least_clearance + PROOF_SLACK_M, 2)
+        return f"<Run: {self.duration:.1f} s, {clear} m clear, {len(self.replans)} re-plans, {end}>"
 
     @property
     def least_clearance(self) -> float:

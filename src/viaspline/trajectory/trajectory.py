@@ -17,6 +17,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.integrate import ride
 from viaspline.kernels.timing.law_states import law_states
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.rounded_number import rounded
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.motion_pieces import after, speed_into, time_into
@@ -66,8 +67,8 @@ class Trajectory(ShownValue, ComparedByValue):
         count = len(self.stations)
         stops = f", {count} station{'s' if count > 1 else ''}" if count else ""
         return (
-            f"<Trajectory: {begin:g} m to {end:.1f} m in {self.duration:.1f} s from "
-            f"{self.start_time:g} s on, at most {float(self.speeds.max()):.2f} m/s{stops}>"
+            f"<Trajectory: {begin:g} m to {rounded(end, 1)} m in {self.duration:.1f} s from "
+            f"{self.start_time:g} s on, at most {rounded(float(self.speeds.max()), 2)} m/s{stops}>"
         )
 
     @classmethod

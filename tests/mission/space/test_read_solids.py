@@ -7,7 +7,7 @@ import pytest
 
 from viaspline.errors import MissionError, OutputError
 from viaspline.formats.load import load
-from viaspline.formats.mission_yaml import write_yaml, yaml_text
+from viaspline.formats.mission_yaml import yaml_text
 from viaspline.maps.terrain import Terrain
 from viaspline.maps.voxels import Voxels
 from viaspline.mission.model import Mission
@@ -49,7 +49,7 @@ def test_files_are_read_beside_the_mission_and_named_when_it_is_written(folder: 
     assert ground.terrain == Terrain([[1, 2], [3, 4]], 40, (-10, -10))
     assert mission.world.known[0].voxels == Voxels(CUBES, 0.5, (20, 30, 40))
     (folder / "below").mkdir()
-    write_yaml(mission, folder / "below" / "n.yaml")
+    (folder / "below" / "n.yaml").write_text(yaml_text(mission, folder / "below"), "utf-8")
     text = (folder / "below" / "n.yaml").read_text()
     assert "terrain: ../maps/dem.asc" in text.replace('"', "")
     assert load(folder / "below" / "n.yaml") == mission

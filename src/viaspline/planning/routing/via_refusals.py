@@ -63,10 +63,12 @@ def _no_room(
     moves, changes = _what_helps(via, room, beside, world, requirements)
     missing = requirements.required - room
     what = "outside" if index < -1 and room < 0 else f"{missing:.3f} m inside the clearance of"
+    under_way = via.index is None  # a place of the path itself: not one that a user could move
+    lies = f"{via.name} is" if under_way else f"via point {via.name!r} lies"
     return NoPathError(
-        f"via point {via.name!r} lies {what} {name!r}",
+        f"{lies} {what} {name!r}",
         where=via.at,
-        remedy=" or ".join(moves) or "move it",
+        remedy=" or ".join(moves) or ("make room there" if under_way else "move it"),
         via=via.name,
         obstacles=(name,),
         changes=changes,

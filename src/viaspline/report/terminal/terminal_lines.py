@@ -21,6 +21,7 @@ from viaspline.errors import (
     PlanningError,
 )
 from viaspline.report.terminal.standard_streams import discard
+from viaspline.report.units import place
 
 
 def say(*lines: str) -> None:
@@ -77,7 +78,7 @@ def gave_up(error: GaveUpError) -> str:
 
 
 def _where(error: PlanningError) -> str:
-    return f"({', '.join(f'{x:.2f}' for x in error.where)})"
+    return place(error.where)
 
 
 @contextmanager
