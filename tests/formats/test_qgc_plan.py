@@ -119,6 +119,25 @@ def test_fences_become_fences_and_obstacles_and_nothing_is_dropped_in_silence() 
     assert [obstacle.name for obstacle in world.known] == ["exclusion 1"]
 
 
+def test_headings_and_halves_of_positions_are_named() -> None:
+    turned, half = simple(47.001, 8.001), simple(None, 8.002)
+    turned["params"][3] = 45
+    items = [simple(47.001, 8.0), turned, half]
+    with pytest.warns(MissionWarning) as told:
+        mission = loaded(plan(mission={**plan()["mission"], "items": items}))
+    assert [str(one.message).split(": ", 1)[1].split(" (")[0] for one in told] == [
+        "item 2: way point with a heading", "item 3: way point with half a position: left out",
+    ]  # fmt: skip
+    assert len(mission.route.via) == 1
+
+
+def test_a_return_from_above_a_terrain_is_no_item_without_an_altitude() -> None:
+    items = [{**simple(47.001, 8.0), "frame": 10}, simple(0, 0, command=20)]
+    with pytest.warns(MissionWarning) as told:
+        loaded(plan(mission={**plan()["mission"], "items": items}))
+    assert ["above terrain" in str(one.message) for one in told] == [True]
+
+
 def test_a_way_point_outside_the_fence_is_told_by_its_key_in_the_plan() -> None:
     square = [[46.999, 7.999], [46.999, 8.0005], [47.002, 8.0005], [47.002, 7.999]]
     data = plan(geoFence={"polygons": [{"polygon": square, "inclusion": True}]})

@@ -24,6 +24,9 @@ PLACES: Final = WAYPOINTS | TAKEOFFS | LANDINGS | LOITERS | frozenset({94})
 DWELLING: Final = WAYPOINTS | frozenset({19})
 """Commands whose first parameter is a time to stay [s]."""
 
+HEADED: Final = frozenset({16, 21, 22})
+"""Commands whose fourth parameter is a heading [deg]; 0 is what ArduPilot's planners fill in."""
+
 INCLUSION_CORNER: Final = 5001
 EXCLUSION_CORNER: Final = 5002
 INCLUSION_CIRCLE: Final = 5003

@@ -14,6 +14,7 @@ from viaspline.formats.commands import (
     DELAYS,
     DWELLING,
     FENCE_COMMANDS,
+    HEADED,
     HOME_RETURN,
     LANDINGS,
     LOOKS_AHEAD,
@@ -110,9 +111,10 @@ def stops_of(itinerary: Itinerary) -> tuple[tuple[Stop, ...], tuple[tuple[str, s
         elif item.command == HOME_RETURN:
             if stops:
                 # No height is given; the vehicle comes back as high as it is and then descends.
-                height = stops[-1].height
-                back = replace(stops[0], height=height, dwell=0.0, place=item.place, is_home=False)
-                stops.append(replace(back, is_landing=True))
+                height, over_terrain = stops[-1].height, stops[-1].over_terrain
+                back = replace(stops[0], dwell=0.0, place=item.place, is_home=False)
+                back = replace(back, height=height, over_terrain=over_terrain, is_landing=True)
+                stops.append(back)
             _rest(itinerary.items[i + 1 :], "after the return to launch", log)
             break
         elif item.command in PLACES:
@@ -157,6 +159,11 @@ def _stop(item: Item, stops: list[Stop], ground: float, log: _Log) -> Stop | Non
     if item.frame not in GLOBAL and _names_a_place(item):
         log.note(f"{command_name(item.command)} in frame {item.frame}, which isn't global", item)
         return None
+    if math.isnan(item.latitude) != math.isnan(item.longitude):
+        log.note(f"{command_name(item.command)} with half a position: left out", item)
+        return None
+    if item.command in HEADED and math.isfinite(item.params[3]) and item.params[3] != 0.0:
+        log.note(f"{command_name(item.command)} with a heading", item)
     dwell = _dwell(item, log)
     if item.command in (18, 31, 94):
         log.note(f"{command_name(item.command)}: driven to, not carried out", item)
