@@ -158,6 +158,19 @@ def test_a_return_to_launch_lands_where_it_began(tmp_path: Path) -> None:
     assert route.land.at == (0, 0)
 
 
+def test_items_that_stay_where_the_vehicle_is_are_no_points_of_their_own(tmp_path: Path) -> None:
+    """A survey that begins above its take-off, and way points that go 'here', are legal."""
+    off, here = item(HERE[0], 3, 20, command=22), item(None, 3, 20)
+    there = item(NORTH, 3, 20)
+    there["params"][0] = 3
+    again = [item(HERE[0], 3, 20), there, here, {**there, "params": [4, *there["params"][1:]]}]
+    file = plan(tmp_path, off, *again, item(NORTH, 3, 30), item(47.002, 3, 20))
+    mission = quietly(file, ground={"flat_m": 400})
+    assert [(via.at[2], via.dwell_s) for via in mission.route.via] == [(420, 7), (430, 0)]
+    assert mission.route.takeoff is not None
+    assert mission.route.takeoff.to_agl_m == 20
+
+
 def test_without_take_off_it_begins_in_the_air(tmp_path: Path) -> None:
     file = plan(tmp_path, item(NORTH, 3, 30), item(NORTH + 0.001, 3, 30))
     route = quietly(file, ground={"flat_m": 0}).route

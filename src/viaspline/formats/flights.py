@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path as FilePath
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypeAlias
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -24,6 +25,10 @@ SAME_PLACE_M: Final = 0.02
 _FLOWN: Final = frozenset(
     {OVER_TERRAIN, OVER_SEA, NO_HOME_ALTITUDE, "region of interest", "end of region of interest"}
 )
+
+
+_Placed: TypeAlias = tuple[Stop, tuple[float, float]]
+"""A stop and its place in the plane [m]."""
 
 
 class FlownRoute(NamedTuple):
@@ -90,15 +95,17 @@ def route_in_space(stops: Sequence[Stop], frame: LocalFrame, ground: GroundSpec)
     home = ground_height(ground, *places[0])
     left = list(zip(stops, places, strict=True))
     route: dict[str, Any] = {}
+    above: list[_Placed] = []
     if len(left) > 1 and left[1][0].is_takeoff and math.dist(places[0], places[1]) < SAME_PLACE_M:
-        climb = left.pop(1)[0]
-        route["takeoff"] = {"to_agl_m": _above_ground(climb, home)}
+        above = [left.pop(1)]
+        route["takeoff"] = {"to_agl_m": _above_ground(above[0][0], home)}
         start: dict[str, Any] = {"at": places[0]}
         behind = left[1:]
     else:
         behind = left[1:] if left[0][0].is_home else left
         start = {}
     landing = behind.pop() if behind and behind[-1][0].is_landing else None
+    behind = _without_repeats([*above, *behind], home, ground)[len(above) :]
     points = [_point(stop, at, home, frame, ground) for stop, at in behind]
     told = [stop for stop, _ in behind]
     if start:
@@ -111,6 +118,31 @@ def route_in_space(stops: Sequence[Stop], frame: LocalFrame, ground: GroundSpec)
         route["goal"] = points.pop()
     route |= {"start": points[0] if points else {"at": places[0]}, "via": points[1:]}
     return FlownRoute(route, tuple(told))
+
+
+def _without_repeats(placed: Sequence[_Placed], home: float, ground: GroundSpec) -> list[_Placed]:
+    """Stops in a row at one place in the air as one, which stays as long as all of them.
+
+    A take-off stays nowhere, so one that does behind it is kept, and is told.
+    """
+    kept: list[_Placed] = []
+    last = (math.nan, math.nan, math.nan)
+    for stop, at in placed:
+        here = (*at, _altitude(stop, at, home, ground))
+        if not math.dist(here, last) < SAME_PLACE_M or (kept[-1][0].is_takeoff and stop.dwell):
+            kept.append((stop, at))
+            last = here
+        else:
+            before, where = kept[-1]
+            kept[-1] = (replace(before, dwell=before.dwell + stop.dwell), where)
+    return kept
+
+
+def _altitude(stop: Stop, at: tuple[float, float], home: float, ground: GroundSpec) -> float:
+    """Where a stop is above the sea [m]."""
+    if math.isfinite(stop.over_terrain):
+        return ground_height(ground, *at) + stop.over_terrain
+    return stop.altitude if math.isfinite(stop.altitude) else home + stop.height
 
 
 def _above_ground(stop: Stop, home: float) -> float:
@@ -128,8 +160,7 @@ def _point(
     if math.isfinite(stop.over_terrain):
         point["agl_m"] = stop.over_terrain
     else:
-        z = stop.altitude if math.isfinite(stop.altitude) else home + stop.height
-        point["at"] = [*at, z]
+        point["at"] = [*at, _altitude(stop, at, home, ground)]
     if stop.dwell:
         point["dwell_s"] = stop.dwell
     if stop.look_at is not None:
