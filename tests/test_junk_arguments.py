@@ -334,3 +334,28 @@ def test_nothing_and_text_are_no_numbers(value: Any) -> None:
 def test_whole_numbers_of_any_size_flags_and_lists_are_numbers() -> None:
     for value in (1, True, 10**30, np.float32(0.5), [0, 1], np.int8(1)):
         assert np.isfinite(MADE.law.state_at(value)[0]).all()
+
+
+def test_text_is_no_number_either_where_one_is_expected() -> None:
+    for made in (lambda: vs.Limits(max_speed="2", max_accel=1), lambda: MADE.plan.samples("1")):
+        with pytest.raises(vs.GeometryError, match="give a number"):
+            made()
+
+
+@pytest.mark.parametrize("asked", [{"clearance": -1}, {"clearance": 1, "radius": -1}])
+def test_a_proof_of_less_than_nothing_is_refused(asked: dict[str, float]) -> None:
+    curve, moving = MADE.curve, MADE.moving
+    with pytest.raises(vs.GeometryError, match=r"is -1\.0; give 0 or more"):
+        vs.certify(curve, MADE.world, **asked)
+    with pytest.raises(vs.GeometryError, match=r"is -1\.0; give 0 or more"):
+        vs.certify_moving(curve, MADE.law, moving, **asked)
+
+
+def test_what_a_world_would_pass_over_is_refused() -> None:
+    disc = {"center": (0, 0), "radius": 1}
+    both = vs.Obstacle(circle=disc, polygon=[(5, 0), (9, 0), (9, 9)])
+    with pytest.raises(vs.GeometryError, match="two shapes, circle and polygon"):
+        vs.World([both])
+    cart = vs.Obstacle(circle=disc, motion={"from": (9, 0), "velocity_mps": (1, 0)})
+    with pytest.raises(vs.GeometryError, match="obstacle 0 moves, and a World stands still"):
+        vs.World([cart])

@@ -49,6 +49,8 @@ def number_from(name: str, value: object) -> float:
     >>> number_from("clearance", 2)
     2.0
     """
+    if isinstance(value, str | bytes):
+        raise GeometryError(f"{name} is {value!r:.40}; give a number")
     try:
         return float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
@@ -68,6 +70,26 @@ def finite_from(name: str, value: object) -> float:
     if not math.isfinite(number):
         raise GeometryError(f"{name} is {number}; give a finite number")
     return number
+
+
+def room_from(clearance: object, radius: object) -> tuple[float, float]:
+    """What is to be kept free, and the radius of a body, as they were handed in [m].
+
+    With a clearance below 0 a path through a wall would keep what is asked.
+
+    Raises:
+        GeometryError: One is no finite number, or below 0.
+
+    >>> room_from(1, 0.5)
+    (1.0, 0.5)
+    """
+    found = number_from("clearance", clearance), number_from("radius", radius)
+    if not all_finite(*found):
+        raise GeometryError(f"clearance {found[0]} and radius {found[1]} have to be finite")
+    for name, value in zip(("clearance", "radius"), found, strict=True):
+        if value < 0.0:
+            raise GeometryError(f"{name} is {value}; give 0 or more")
+    return found
 
 
 def all_finite(*values: object) -> bool:
@@ -137,7 +159,8 @@ def numbers_in(values: object) -> NDArray[np.float64]:
         if found.dtype.kind not in "fiub":
             for value in found.flat:
                 if not isinstance(value, Real):
-                    raise GeometryError(f"expected numbers, found {value!r:.40}")
+                    told = value.item() if isinstance(value, np.generic) else value
+                    raise TypeError(f"found {told!r:.40}")
         return found.astype(np.float64, copy=False)
     except (TypeError, ValueError, OverflowError) as error:
         raise GeometryError(f"expected numbers: {error}") from None

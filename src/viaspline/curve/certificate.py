@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.curve.provable_curve import StatedCurve, provable_curve
 from viaspline.errors import GeometryError, with_article
-from viaspline.handed_in import check_answers, number_from
+from viaspline.handed_in import check_answers, room_from
 from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.clearance.world_protocol import dimension
 from viaspline.presentable.told_in_lines import told_in_lines
@@ -126,7 +126,7 @@ def certify(
         GeometryError: When only values of the curve are known, or it bends more than it says; when
             it is not in the plane or in space, or the world is in space and the curve isn't; when
             there is a footprint, and the curve's tangents aren't those of the cubics it is proven
-            by; when clearance or radius is not a finite number, or the radius below 0, or the
+            by; when clearance or radius is not a finite number, or below 0, or the
             footprint is no polygon
             about the reference point, or the world isn't in the plane.
 
@@ -161,13 +161,8 @@ def certify(
             f"a curve of dimension {curve.dimension} can't be certified in a world of dimension "
             f"{dimension(world.packed)}; give it heights"
         )
-    clearance, radius = number_from("clearance", clearance), number_from("radius", radius)
-    required = clearance + radius
-    if not math.isfinite(required):
-        raise GeometryError(f"clearance {clearance} and radius {radius} have to be finite")
-    if radius < 0.0:
-        raise GeometryError(f"radius is {radius}; give 0 for a point, or more")
-    found = _proven(_bounder(curve, world, footprint), required + whole.off)
+    clearance, radius = room_from(clearance, radius)
+    found = _proven(_bounder(curve, world, footprint), clearance + radius + whole.off)
     contact = None if found.nearest == -1 else found.contact
     u = float(found.span + found.w)
     at = np.asarray(curve.evaluate(u))

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from viaspline.curve.certificate import PROOF_SLACK_M, PROOF_TOLERANCE_M
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.handed_in import check_kind, number_from
+from viaspline.handed_in import check_kind, number_from, room_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.motion import timed_path as columns
 from viaspline.kernels.motion.moving_clearance import moving_tightest
@@ -96,8 +96,8 @@ def certify_moving(
 
     Raises:
         GeometryError: The curve is of another dimension, the law leaves it, the footprint is no
-            polygon about the reference point, or a number is not finite or a length of time below
-            0.
+            polygon about the reference point, or a number is not finite, or a length of time,
+            the clearance or the radius below 0.
 
     Example:
         >>> from viaspline.curve.cardinal import CardinalSpline
@@ -119,9 +119,7 @@ def certify_moving(
     """
     check_kind("moving", moving, MovingObstacles, "give MovingObstacles([...])")
     timed = timed_path(path, trajectory)
-    clearance, radius = number_from("clearance", clearance), number_from("radius", radius)
-    if not math.isfinite(clearance + radius):
-        raise GeometryError(f"clearance {clearance} and radius {radius} have to be finite")
+    clearance, radius = room_from(clearance, radius)
     body = POINT if footprint is None else outline(footprint)
     held = math.nan if heading is None else number_from("heading", heading)
     required = clearance + radius - PROOF_SLACK_M

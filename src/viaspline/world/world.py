@@ -58,6 +58,10 @@ class World(ShownValue, ComparedByValue):
         self.obstacles: tuple[Obstacle, ...] = all_of(
             "obstacles", obstacles, Obstacle, "give Obstacle(circle={...}), or World.known(mission)"
         )
+        for i, obstacle in enumerate(self.obstacles):
+            if obstacle.motion is not None:
+                problem = f"obstacle {i} moves, and a World stands still"
+                raise GeometryError(f"{problem}; give it to MovingObstacles")
         self.bounds: Bounds | None = None
         self.fences = checked_rings("fences", fences)
         self.corridor = checked_rings("corridor", corridor)

@@ -191,7 +191,15 @@ class Obstacle(
         """Its shape as a rounded ring; None if it is a map or a solid, or has no shape.
 
         Made once: a robot with a lidar packs what it has seen after every scan.
+
+        Raises:
+            GeometryError: It has two shapes, of which one would be as if it weren't there.
         """
+        given = [key for key in SHAPES if getattr(self, key) is not None]
+        if len(given) > 1:
+            raise GeometryError(
+                f"an obstacle has two shapes, {given[0]} and {given[1]}: make it two obstacles"
+            )
         for key, shape in self.shapes():
             if key in KINDS and not (self.capsule is not None and self.capsule.is_spatial):
                 return shape.ring()
