@@ -95,6 +95,18 @@ def test_robots_that_nothing_comes_near_drive_as_if_nothing_moved() -> None:
         assert plan.plans[name].moving_certificate is not None
 
 
+def test_nobody_waits_for_a_robot_that_comes_otherwise_past_what_moves() -> None:
+    first = ride([18, -8], [18, 30], priority=1)
+    asked = [ride([0, 12], [40, 12]), first]
+    waits = plan_fleet(fleet_of(*asked, motion=straight((500.0, 0.0), (0.0, 1.0))))
+    assert waits.plans["r0"].trajectory.end_time > waits.alone["r0"] + 2.0
+    motion = straight((22.0, -1.5), (-1.0, 0.0))  # before which the first has to give way
+    plan = plan_fleet(fleet_of(*asked, motion=motion))
+    keeps_clear(plan, motion)
+    assert plan.plans["r0"].trajectory.end_time < waits.alone["r0"] + 0.5
+    assert plan.plans["r1"].trajectory.end_time < waits.alone["r1"] + 0.5
+
+
 def test_a_patrol_among_things_that_move_is_told_to_end() -> None:
     endless = {"route": {"start": [0, 0], "via": [[20, 0], [20, 20]], "closed": True}}
     motion = straight((500.0, 0.0), (0.0, 1.0))

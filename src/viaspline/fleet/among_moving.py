@@ -2,7 +2,8 @@
 
 Robots are timed as if nothing moved. Those whose laws are clear of what moves keep them. Each of
 the others is laid and timed anew in space and time, among what moves and the robots that have their
-laws; then all laws are kept as they are.
+laws; then all laws are kept as they are. Who is late by then, for a robot that may come at another
+time now, is laid anew once, among all others, if they come sooner by that all together.
 """
 
 from __future__ import annotations
@@ -32,6 +33,9 @@ ENDLESS = (
 )
 """Said of a patrol among things that move."""
 
+LATE_S = 0.5
+"""Who is as much later than alone is laid anew once those that he waits for have other laws [s]."""
+
 Serve = Callable[[dict[int, int]], TimedFleet]
 """Times robots as if nothing moved, but for those that stand at their starts."""
 
@@ -54,7 +58,7 @@ def among_moving(fleet: Fleet, ways: FleetWays, serve: Serve, work: LayingWork) 
             return replace(timed, reasons=reasons)
         found = _relaid(fleet, timed, plans, met, work)
         if isinstance(found, TimedFleet):
-            return replace(found, reasons=reasons)
+            return replace(_sooner(fleet, found, met, work), reasons=reasons)
         names = ways.courses.names
         reasons = {**reasons, **{names.index(name): why for name, why in found.items()}}
 
@@ -113,6 +117,34 @@ def _relaid(
             "let it depart at another time, or give the robots more room",
         )
     }
+
+
+def _sooner(fleet: Fleet, timed: TimedFleet, met: list[str], work: LayingWork) -> TimedFleet:
+    """The fleet with new laws for those that wait for robots with other laws now, if that helps.
+
+    Args:
+        fleet: What is asked for.
+        timed: With other laws for those that would have been met.
+        met: Their names.
+        work: What may be spent.
+    """
+    plans, ways = timed.planar_plans(), timed.ways
+    alone = dict(zip(ways.courses.names, ways.rides.alone.tolist(), strict=True))
+    departs = {one.name: one.mission.route.depart_s for one in ways.members}
+    late = [
+        name
+        for name, plan in plans.items()
+        if name not in met and plan.trajectory.end_time > departs[name] + alone[name] + LATE_S
+    ]
+    again = _relaid(fleet, timed, plans, late, work) if late else None
+    if not isinstance(again, TimedFleet):
+        return timed
+    return min(timed, again, key=_arrivals)
+
+
+def _arrivals(timed: TimedFleet) -> float:
+    """When robots arrive, all together [s]."""
+    return sum(plan.trajectory.end_time for plan in timed.planar_plans().values())
 
 
 def _as_laid(
