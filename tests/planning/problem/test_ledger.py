@@ -103,3 +103,17 @@ def test_sides_that_are_asked_for_are_kept_by_every_candidate(seed: int) -> None
             for obstacle in mission.world.known:
                 if obstacle.name in met and obstacle.forced_side and obstacle.circle:
                     assert side_of(candidate, obstacle.circle.center) == obstacle.forced_side
+
+
+def test_a_side_with_a_way_and_no_curve_along_it_is_not_told_to_be_too_narrow() -> None:
+    known = [
+        {"name": "lake", "circle": {"center": [5e4, 5e4], "radius": 9e3}},
+        {"name": "pole", "circle": {"center": [2e4, 20_000.2], "radius": 0.1}},
+    ]
+    mission = vs.Mission.model_validate({
+        "world": {"known": known, "bounds": [0, 0, 1e5, 1e5]},
+        "robot": {"radius_m": 1, "clearance_m": 2, "max_speed_mps": 20},
+        "route": {"start": [1e3, 1e3], "via": [[3e4, 3e4]], "goal": [9.9e4, 9.9e4]},
+    })  # fmt: skip
+    (left, _), _ = (entry.candidates for entry in vs.plan(mission).ledger)
+    assert left.impossible == "no curve was found along the way on the left"

@@ -155,6 +155,8 @@ def opposite(side: Side) -> Side:
 
 def reason_of(outcome: Outcome[TautPath], side: Side) -> str:
     """Why there may be no curve on a side, from what the search for its taut path came to."""
-    if outcome.value is not None or isinstance(outcome, Refusal):
+    if outcome.value is not None:
+        return f"no curve was found along the way on the {side}"
+    if isinstance(outcome, Refusal):
         return f"no way is wide enough on the {side}"
     return f"no way was found on the {side} before the search was given up"

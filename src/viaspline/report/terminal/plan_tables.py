@@ -160,7 +160,7 @@ def _beside(candidate: Candidate, other: Candidate) -> str:
 
 def _candidate(candidate: Candidate) -> tuple[str, str, str, str, str]:
     if candidate.impossible is not None:
-        return "–", "–", "–", "–", f"impossible: {candidate.impossible}"
+        return "–", "–", "–", "–", candidate.impossible
     clearance = "–" if candidate.clearance is None else down(candidate.clearance)
     bend = "–" if candidate.max_curvature is None else f"{candidate.max_curvature:.3g} 1/m"
     time, length = seconds(candidate.duration), metres(candidate.length, 1)
