@@ -71,6 +71,8 @@ def test_every_fault_has_its_line_and_column_and_they_come_in_file_order(tmp_pat
         ("\ufeffroute: 5\n", ":1:8", "found 5"),
         ("a\x00: 5\n", ":1:2", "can't stand in YAML"),
         (ROUTE + "spline: !mine {tension: 0}\n", ":2:9", "tag"),
+        (ROUTE + "spline: !!python/object:os.system {tension: 0}\n", ":2:9", "tag"),
+        ("route: {start: !point [0, 0], goal: [1, 2]}", ":1:16", "the tag !point means nothing"),
         (ROUTE + "<<: {}\n", ":2:1", "merge keys"),
         (ROUTE + "5: {}\n", ":2:1", "the key 5"),
         (ROUTE + "robot: *nobody\n", ":2:8", "is not YAML"),

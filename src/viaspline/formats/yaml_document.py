@@ -32,6 +32,8 @@ from viaspline.formats.number_lists import (
 from viaspline.mission.unplaced_faults import Mark, Path, UnplacedFault, describe
 
 _TAG: Final = "tag:yaml.org,2002:"
+_PLAIN: Final = (_TAG + "map", _TAG + "seq", _TAG + "str")
+"""The tags of mappings and lists; of one of plain numbers the last, as it is taken whole."""
 _TOO_MANY: Final = f"from here on there are more than the {MAX_PARTS} parts that are read"
 
 
@@ -92,16 +94,16 @@ class Document:
             return self._made[id(node)]
         self._count += 1
         if is_number_list(node):
+            self._check_tag(node, path)
             self._count += count_of(node.value)
             self._made[id(node)] = numbers_of(node)
             self._counts[id(node)] = self._count - before
             return self._made[id(node)]
         if isinstance(node, ScalarNode):
             return self._scalar(node, path)
+        self._check_tag(node, path)
         # Until it is done, so that an alias inside of what it stands for ends here.
         self._made[id(node)] = None
-        if not str(node.tag).startswith(_TAG):
-            self._faults.append(_tagged(node, path))
         value: Any = None
         if isinstance(node, SequenceNode):
             value = [self._value(item, (*path, i)) for i, item in enumerate(node.value)]
@@ -110,6 +112,10 @@ class Document:
         self._made[id(node)] = value
         self._counts[id(node)] = self._count - before
         return value
+
+    def _check_tag(self, node: Node, path: Path) -> None:
+        if str(node.tag) not in _PLAIN:
+            self._faults.append(_tagged(node, path))
 
     def _mapping(self, node: MappingNode, path: Path) -> dict[Any, Any]:
         data: dict[Any, Any] = {}
