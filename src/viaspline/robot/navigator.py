@@ -97,8 +97,8 @@ class Navigator:
     Args:
         mission: What to do.
         plan: Its plan, if there is one already.
-        reaction: Longest time between two steps [s].
-        period: Usual time between two steps; only the control of a robot with a drive asks [s].
+        reaction: Longest time between two steps [s]; the period, if that is longer.
+        period: Usual time between two steps [s].
         warm: Load, and on a machine's first run compile, all that any step can need, before the
             plan: see ``warm``. Without it a step that is the first to need a kernel waits for it.
         progress: Hears the name of every kernel that has to be compiled for that.
@@ -138,6 +138,7 @@ class Navigator:
     ) -> None:
         check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
         reaction, period = time_from("reaction", reaction), time_from("period", period)
+        reaction = max(reaction, period)
         if plan is not None:
             check_plan_of(mission, plan)
         warm_up(mission, progress, warm)
