@@ -172,6 +172,17 @@ def test_a_robot_that_lags_gets_a_new_time_law_from_where_it_is(mission_of: Make
     assert command.acceleration == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("period", [0.1, 0.5, 1.0])
+def test_it_sets_off_however_long_its_steps_are(mission_of: Make, period: float) -> None:
+    nav, x, speed = Navigator(mission_of([0, 0], [20, 0]), period=period), 0.0, 0.0
+    for tick in range(round(60.0 / period)):
+        command, nav = nav.step(RobotState((x, 0.0), 0.0, speed), [], tick * period)
+        speed = command.velocity[0]
+        x += period * speed
+    assert nav.reached
+    assert x == pytest.approx(20.0, abs=0.25)
+
+
 def test_progress_on_a_route_that_crosses_itself_is_not_mistaken(mission_of: Make) -> None:
     nav = Navigator(mission_of([0, 0], [20, 0], [20, 20], [10, 20], [10, -20]))
     # beside the crossing at (10, 0) on the first leg, not on the last
