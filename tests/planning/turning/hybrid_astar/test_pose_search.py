@@ -5,6 +5,8 @@ from functools import cache
 import numpy as np
 import pytest
 import shapely
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 from shapely import affinity
 
 from viaspline.curve.certificate import certify
@@ -58,7 +60,7 @@ def box(x0, y0, x1, y1):
     return Obstacle(polygon=[(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
 
-def is_sound(chain, world, requirements, start, goal):
+def is_sound(chain, world, requirements, start, goal, rho=RHO):
     """Check all that is promised of a chain."""
     assert isinstance(chain, Chain), chain
     curve = PiecewiseCubic(chain.spans)
@@ -71,8 +73,8 @@ def is_sound(chain, world, requirements, start, goal):
     if goal.headings:
         gaps = [abs(math.remainder(heading[-1] - each, math.tau)) for each in goal.headings]
         assert min(gaps) < 1e-8
-    assert np.abs(curve.curvature(at)).max() * RHO < 1.003
-    assert curve.curvature_jumps().max(initial=0.0) * RHO < 1e-6
+    assert np.abs(curve.curvature(at)).max() * rho < 1.003
+    assert curve.curvature_jumps().max(initial=0.0) * rho < 1e-6
     assert curve.length == pytest.approx(chain.length, rel=1e-5)
     if requirements.footprint is None:
         assert certify(curve, world, requirements.kept, radius=requirements.radius).holds
@@ -265,6 +267,63 @@ def test_what_is_refused_is_out_of_reach_even_with_sudden_turns(width):
     else:
         is_sound(found, world, DISC, start, goal)
     assert isinstance(found, Chain) == (width > 10.0)
+
+
+def test_a_way_begins_with_an_arc_that_a_longer_ramp_has_no_room_for():
+    # on the side of the disc there is none; past the corner of the box an arc keeps 0.95 m of 0.8,
+    # with a ramp of half its radius 0.55 m
+    ring = [(19.364, 20.592), (18.169, 21.644), (17.117, 20.448), (18.312, 19.396)]
+    known = [Obstacle(polygon=ring), Obstacle(circle={"center": (17.835, 25.077), "radius": 1.899})]
+    world = World(known, bounds=(-3, -3, 39, 39))
+    needs = Requirements(radius=0.5, clearance=0.3)
+    start, goal = Pose(15.166, 22.712, -0.30859), Goal(35.097, 19.765)
+    chain = find_poses(world, needs, 1.6, 1.6, start, goal)
+    is_sound(chain, world, needs, start, goal, 1.6)
+
+
+@settings(max_examples=8)
+@given(
+    st.floats(0.5, 6.0), st.floats(0.6, 1.5), st.sampled_from([-0.01, 0.02, 0.1]),
+    st.floats(-math.pi, math.pi),
+)  # fmt: skip
+@example(4.0, math.pi / 2, 0.02, 0.0)
+@example(4.0, math.pi / 2, -0.01, 0.0)
+def test_a_robot_turns_away_from_a_wall_wherever_its_circle_leaves_room(rho, towards, spare, askew):
+    """Driving towards a wall it comes nearer to it by ``rho * (1 - cos(towards))``, and no less."""
+    far = DISC.required + rho * (1.0 - math.cos(towards) + spare)
+    c, s = math.cos(askew), math.sin(askew)
+
+    def turned(x, y):
+        return c * x - s * y, s * x + c * y
+
+    corners = [(-15 * rho, far), (15 * rho, far), (15 * rho, far + 1), (-15 * rho, far + 1)]
+    edge = 25.0 * rho
+    wall = Obstacle(polygon=[turned(*place) for place in corners])
+    world = World([wall], bounds=(-edge, -edge, edge, edge))
+    start, goal = Pose(0.0, 0.0, towards + askew), Goal(*turned(5.0 * rho, -3.0 * rho))
+    found = find_poses(world, DISC, rho, rho, start, goal)
+    if spare < 0.0:
+        assert isinstance(found, NotFound)
+    else:
+        is_sound(found, world, DISC, start, goal, rho)
+
+
+def test_headings_at_a_place_in_a_corner_are_told_from_what_comes_after_it():
+    # by the shortest arrivals there the robot can't leave it again
+    room, needs = World(bounds=(0, 0, 12, 12)), Requirements(radius=0.3, clearance=0.0)
+    start, goals = Pose(5.82, 1.04, -2.49), [Goal(11.06, 11.57), Goal(7.8, 5.05, (1.31,))]
+    chains = find_row(room, needs, 1.0, 1.0, [start], goals, WorkBudget(12.0))
+    for chain, goal in zip(chains, goals, strict=True):
+        is_sound(chain, room, needs, start, goal, 1.0)
+        start = chain.end
+
+
+def test_a_proof_is_none_where_a_little_sharper_turns_come_through():
+    far = DISC.required + RHO - 0.03
+    world = World([box(-60, far, 60, far + 1)], bounds=(-70, -70, 70, 70))
+    found = find_poses(world, DISC, RHO, RHO, Pose(0, 0, math.pi / 2), Goal(20, -12))
+    assert isinstance(found, NotFound)
+    assert found.reason is Reason.CLOSE
 
 
 def row_in_steps(limit, finished):

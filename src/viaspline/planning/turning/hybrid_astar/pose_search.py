@@ -65,9 +65,11 @@ SEARCH_EFFORTS = (
     Effort(0.05, 1.0, (1 / 3,), 60_000),
     Effort(0.05, 0.7, (1 / 6, 1 / 3), 60_000),
     Effort(0.025, 0.4, (1 / 12, 1 / 6, 1 / 3), 120_000, (1.5, 0.25)),
+    Effort(0.025, 0.08, (1 / 12, 1 / 6, 1 / 3), 120_000, (1.5, 1.0)),
+    Effort(0.025, 0.02, (1 / 12, 1 / 6, 1 / 3), 120_000, (1.5, 1.0)),
 )
 FIRST_LOOK = 0.1  # of its states, that each effort looks at before any of them looks at all
-LEAST_SEARCH_RAMP = 0.08  # of the radius
+LEAST_SEARCH_RAMP = 0.02  # of the radius
 
 
 @dataclass(frozen=True)
@@ -118,12 +120,21 @@ class PoseProblem:
             after,
         )
 
-    def backwards(self, start: Pose, goal: Goal, headings: Floats) -> SearchTree:
-        """A search from the goal to the start, as of a robot that drives backwards."""
+    def backwards(
+        self, start: Goal, goal: Goal, headings: Floats, after: float = SHARE_AFTER_ARRIVAL
+    ) -> SearchTree:
+        """A search from the goal to the start, as of a robot that drives backwards.
+
+        Args:
+            start: With the headings that it may be left with.
+            goal: Where it begins.
+            headings: That the robot may have there [rad], (h,).
+            after: See ``SearchTree``.
+        """
         starts = np.zeros((len(headings), 4))
         starts[:, 0], starts[:, 1], starts[:, 2] = goal.x, goal.y, headings + math.pi
         self.requirements.spend(TREE_S)
-        place, back = np.array([start.x, start.y]), np.array([start.heading + math.pi])
+        place, back = np.array([start.x, start.y]), np.array(start.headings) + math.pi
         return SearchTree(
             self.search_window,
             self.search_window.cache_back,
@@ -133,7 +144,7 @@ class PoseProblem:
             place,
             back,
             self.room,
-            SHARE_AFTER_ARRIVAL,
+            after,
         )
 
     def passages(self, start: Floats, goal: Goal) -> tuple[Passage, ...]:

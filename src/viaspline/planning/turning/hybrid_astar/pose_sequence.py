@@ -15,6 +15,10 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.planning.turning.hybrid_astar.from_behind import (
+    thoroughly_from_behind,
+    through_from_behind,
+)
 from viaspline.planning.turning.hybrid_astar.narrow_places import Passage
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     SEARCH_EFFORTS,
@@ -33,7 +37,10 @@ from viaspline.planning.turning.hybrid_astar.search_outcome import (
 )
 from viaspline.world.world import World
 
+SHARPER = 0.95  # so many times as wide are turns with which a proof is doubted
 Lead = Callable[[Sequence[Passage]], Sequence[Passage]]  # those of a leg that it is led by
+Found = tuple[tuple[Chain, ...] | NotFound, bool]
+Search = Callable[[Sequence[RowLeg], Sequence[Pose], WorkBudget, tuple[Hashable, ...]], Found]
 
 
 def find_row(
@@ -70,23 +77,30 @@ def find_row(
     """
     row = _Row(world, requirements, rho, ramp, tuple(starts), tuple(goals), budget, tuple(barriers))
     failed, expanded = [NotFound(Reason.BUDGET)] * len(efforts), 0
-    for number, effort, lead in _attempts(efforts):
-        if failed[number].reason.is_proof:
+    ended: set[tuple[int, Search]] = set()  # with more room they come to the same
+    for number, effort, lead, search in _attempts(efforts):
+        if failed[number].reason.is_proof or (lead is None and (number, search) in ended):
             continue
-        found, seen = row.found(effort, lead)
+        if search is not through and len(goals) == 1:
+            continue
+        found, seen = row.found(effort, lead, search)
         if not isinstance(found, NotFound):
             return found
         expanded += seen
         if lead is None:
             failed[number] = found
-    return replace(failed[-1], expanded=expanded)
+            ended |= set() if found.is_full else {(number, search)}
+    return replace(row.doubted(failed[-1], efforts[-1]), expanded=expanded)
 
 
-def _attempts(efforts: Sequence[Effort]) -> Iterator[tuple[int, Effort, Lead | None]]:
-    """The efforts by number, and by which narrow places ways are led: few states at first."""
-    for each in enumerate(first_looks(efforts)):
-        yield from ((*each, lead) for lead in (None, _all_of_them, _the_narrowest))
-    yield from ((*each, None) for each in enumerate(efforts))
+def _attempts(efforts: Sequence[Effort]) -> Iterator[tuple[int, Effort, Lead | None, Search]]:
+    """The efforts by number, by which narrow places ways are led, and how: few states at first."""
+    looks = first_looks(efforts)
+    for each in enumerate(looks):
+        yield from ((*each, lead, through) for lead in (None, _all_of_them, _the_narrowest))
+    yield len(looks) - 1, looks[-1], None, through_from_behind
+    yield from ((*each, None, through) for each in enumerate(efforts))
+    yield len(efforts) - 1, efforts[-1], None, thoroughly_from_behind
 
 
 def _all_of_them(narrow: Sequence[Passage]) -> Sequence[Passage]:
@@ -112,12 +126,14 @@ class _Row:
     budget: WorkBudget
     barriers: tuple[Floats, ...]
 
-    def found(self, effort: Effort, lead: Lead | None) -> tuple[tuple[Chain, ...] | NotFound, int]:
+    def found(
+        self, effort: Effort, lead: Lead | None, search: Search
+    ) -> tuple[tuple[Chain, ...] | NotFound, int]:
         """What there is with an effort in ever greater windows, and how many states were seen."""
         world, rho, ramp, starts = self.world, self.rho, self.ramp, self.starts
         lines = tuple(each.tobytes() for each in self.barriers)
         found: tuple[Chain, ...] | NotFound = NotFound(Reason.BUDGET)
-        seen = 0
+        seen, is_full = 0, False
         problems = pose_problems(world, self.requirements, rho, ramp, self._places, effort)
         for window, problem in enumerate(problems):
             legs = self._legs(problem, lead)
@@ -126,25 +142,37 @@ class _Row:
             goals = tuple(leg.goal for leg in legs)
             asked = (world, rho, ramp, starts, goals, effort, window, lines)
             found, is_cut = self.requirements.once(
-                ("poses", *asked), partial(self._through, legs, asked)
+                ("poses", search, *asked), partial(self._sought, search, legs, asked)
             )
             if not isinstance(found, NotFound):
                 break
             seen += found.expanded
+            is_full |= found.is_full
+            found = replace(found, is_full=is_full)
             if not is_cut:
                 break
         return found, seen
 
-    def _through(
-        self, legs: list[RowLeg], asked: tuple[Hashable, ...]
-    ) -> tuple[tuple[Chain, ...] | NotFound, bool]:
+    def doubted(self, failed: NotFound, effort: Effort) -> NotFound:
+        """What nothing was found for, but as a proof only if nothing is with sharper turns either.
+
+        What a lattice leaves out of an exact way makes up for no more than these.
+        """
+        if not (failed.reason.is_proof and failed.reason.is_of_turns):
+            return failed
+        sharper, _ = replace(self, rho=SHARPER * self.rho).found(effort, None, through)
+        if not isinstance(sharper, NotFound):
+            return replace(failed, reason=Reason.CLOSE)
+        return failed if sharper.reason.is_proof else replace(failed, reason=Reason.BUDGET)
+
+    def _sought(self, search: Search, legs: list[RowLeg], asked: tuple[Hashable, ...]) -> Found:
         """The chains in one window; those that a plan with another tension has sought as well."""
-        search = partial(through, legs, self.starts, self.budget, asked)
+        sought = partial(search, legs, self.starts, self.budget, asked)
         needs, shared = self.requirements, self.requirements.shared
         if shared is None:
-            return search()
+            return sought()
         budgets = (self.budget,) if needs.budget is None else (self.budget, needs.budget)
-        return shared.once((needs.without_tension, asked), budgets, search)
+        return shared.once((needs.without_tension, search, asked), budgets, sought)
 
     @property
     def _places(self) -> Floats:

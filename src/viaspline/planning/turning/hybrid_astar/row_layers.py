@@ -14,7 +14,7 @@ from itertools import groupby
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
+from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY, FULL
 from viaspline.planning.problem.work_budget import POSES_EFFORT_S, WorkBudget
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     HEADING_SECTORS,
@@ -92,7 +92,7 @@ def through(
         return NotFound(Reason.GOAL_SHUT_IN, legs[-1].number), False
     begins = [np.array([pose.x, pose.y, pose.heading, 0.0]) for pose in roomy]
     layers = [[_Arrival(begin, -1, np.empty((0, 3))) for begin in begins]]
-    expanded, has_followed_all = 0, True
+    expanded, has_followed_all, is_full = 0, True, False
     for step, leg in enumerate(legs):
         number, problem, goal = leg.number, leg.problem, leg.goal
         headings = headings_at(problem, goal)
@@ -107,6 +107,7 @@ def through(
         )
         is_shut_in, seen = _grown(problem, tree, layers[-1][0].pose, goal, budget, (*asked, step))
         expanded += seen
+        is_full |= tree.state == FULL
         if is_shut_in:
             return NotFound(Reason.GOAL_SHUT_IN, number, expanded), False
         arrivals = []
@@ -120,7 +121,7 @@ def through(
             reason = Reason.START_SHUT_IN if number == 0 else Reason.NO_WAY
             if tree.state != EMPTY or is_cut or not has_followed_all:
                 reason = Reason.BUDGET
-            return NotFound(reason, number, expanded), is_cut
+            return NotFound(reason, number, expanded, is_full), is_cut
         distinct = _distinct(arrivals)
         layers.append(distinct[:MAX_ARRIVALS])
         has_seen_all = tree.state == EMPTY and not is_cut
@@ -133,7 +134,7 @@ def _is_shut_in(problem: PoseProblem, start: Pose, goal: Goal, budget: WorkBudge
     headings = headings_at(problem, goal)
     if not goal.headings or not len(headings) or not problem.search_window.area.is_whole:
         return False
-    back = problem.backwards(start, goal, headings)
+    back = problem.backwards(Goal(start.x, start.y, (start.heading,)), goal, headings)
     if not budget.affords(POSES_EFFORT_S * back.effort):
         return False
     problem.go_on(back)
@@ -170,9 +171,10 @@ def _grown(
             continue
         if back is None:
             from_all = headings_at(problem, goal, PROOF_SECTORS)
+            x, y, heading = start[:3].tolist()
             back = problem.requirements.taken_up(
                 ("back", *asked),
-                partial(problem.backwards, Pose(*start[:3].tolist()), goal, from_all),
+                partial(problem.backwards, Goal(x, y, (heading,)), goal, from_all),
             )
         if not back.is_over:
             if not budget.affords(POSES_EFFORT_S * back.effort):

@@ -44,6 +44,7 @@ class Reason(Enum):
     GOAL_SHUT_IN = "forwards, the robot can't come to the goal from anywhere far"
     NO_WAY = "nothing that can be reached from the start leads to the goal"
     BUDGET = "the search was given up before it had seen everything"
+    CLOSE = "a way was found only with turns that are a little sharper than they may be"
 
     @property
     def is_at_start(self) -> bool:
@@ -53,7 +54,7 @@ class Reason(Enum):
     @property
     def is_proof(self) -> bool:
         """Whether all was seen, at the finest resolution."""
-        return self is not Reason.BUDGET
+        return self not in (Reason.BUDGET, Reason.CLOSE)
 
     @property
     def is_of_goal(self) -> bool:
@@ -71,16 +72,20 @@ class NotFound:
     """Nothing was found.
 
     Attributes:
-        reason: Why. All but BUDGET mean that all was seen at the finest resolution: of the states
-            in a cell of place, heading and curvature the search follows the first one, and the
-            cells are small near the start and the goal and where it is tight.
+        reason: Why. All but BUDGET and CLOSE mean that all was seen at the finest resolution: of
+            the states in a cell of place, heading and curvature the search follows the first one,
+            and the cells are small near the start and the goal and where it is tight. CLOSE is what
+            that comes to where it may have overlooked a way.
         goal: Number of the goal that isn't reached from the one before.
         expanded: How many states were looked at.
+        is_full: Whether there was no room for more states: with more of it another search may come
+            to something else.
     """
 
     reason: Reason
     goal: int = 0
     expanded: int = 0
+    is_full: bool = False
 
 
 @dataclass(frozen=True)
