@@ -90,3 +90,18 @@ def test_many_arcs_outgrow_the_first_room_that_is_made_for_them() -> None:
     assert len(caps) > 300
     assert len(distances) == len(caps) + 1
     assert distances[-1] == 9.0
+
+
+@given(size=st.floats(1e-6, 1.0), turn=st.floats(1e-3, 2.0))
+@example(size=0.02, turn=1.7e-4)
+def test_a_short_spiral_allows_nearly_what_its_sharpest_place_does(
+    size: float, turn: float
+) -> None:
+    # However short, it slows down what is before and behind it.
+    ahead, aside = np.array([1.0, 0.0]), np.array([np.cos(turn), np.sin(turn)])
+    span = size * np.cumsum([0 * ahead, ahead, ahead, aside], axis=0)
+    most = curvature(span, np.linspace(0.0, 1.0, 2001)).max()
+    lateral = 2.0 * most  # a speed of 1.41 m/s there
+    joints = np.array([0.0, size * 3.0])
+    _, caps, _ = bend_caps(span[None], joints, lateral, np.inf, 1e-3, 100.0, 1.1)
+    assert caps.min() >= 2.0 / 1.11

@@ -14,6 +14,8 @@ _GAUSS_AT = np.array([-0.906179845938664, -0.5384693101056831, 0.0,
 _GAUSS_WEIGHT = np.array([0.23692688505618908, 0.47862867049936647, 0.5688888888888889,
                           0.47862867049936647, 0.23692688505618908])  # fmt: skip
 
+_LEAST_WIDTH = 1.0 / 256.0  # of a span: narrower arcs are bounded as well as rounding lets them be
+
 
 @inner
 def _wedge(a: Floats, b: Floats) -> float:
@@ -54,8 +56,8 @@ def _cubed(square: float) -> float:
 
 
 @inner
-def _curvature_bounds(r: Floats, width: float) -> tuple[float, float]:
-    """Largest curvature that an arc can have, and the smallest of its ends and its middle.
+def _curvature_bounds(r: Floats, width: float) -> tuple[float, float, float]:
+    """Largest curvature that an arc can have; the smallest and largest of its ends and its middle.
 
     The derivative has the control vectors r0, r1, r2, so P' × P'' has the Bernstein coefficients
     2 r0×r1, r0×r2, 2 r1×r2 and |P'|² those below; a polynomial lies between its smallest and
@@ -74,7 +76,7 @@ def _curvature_bounds(r: Floats, width: float) -> tuple[float, float]:
         g2 += r[2, j] * r[2, j]
     low = min(g0, g01, (g02 + 2.0 * g11) / 3.0, g12, g2)
     if low <= 0.0:
-        return np.inf, 0.0
+        return np.inf, 0.0, 0.0
     middle, wedge = 0.0, 0.0
     for i in range(r.shape[1]):
         at_i = 0.25 * (r[0, i] + 2.0 * r[1, i] + r[2, i])
@@ -83,8 +85,10 @@ def _curvature_bounds(r: Floats, width: float) -> tuple[float, float]:
             at_j = 0.25 * (r[0, j] + 2.0 * r[1, j] + r[2, j])
             w = at_i * (r[2, j] - r[0, j]) - at_j * (r[2, i] - r[0, i])
             wedge += w * w
-    least = min(w0 / _cubed(g0), w2 / _cubed(g2), np.sqrt(wedge) / (width * _cubed(middle)))
-    return max(w0, w1, w2) / _cubed(low), least
+    first, last = w0 / _cubed(g0), w2 / _cubed(g2)
+    within = np.sqrt(wedge) / (width * _cubed(middle))
+    least, most = min(first, last, within), max(first, last, within)
+    return max(w0, w1, w2) / _cubed(low), least, most
 
 
 @inner
@@ -149,13 +153,19 @@ def _arc_cap(
     top: float,
     tolerance: float,
 ) -> tuple[float, bool]:
-    """The largest v² on an arc, and whether halving it would not be worth while."""
-    bound, least = _curvature_bounds(r, width)
+    """The largest v² on an arc, and whether halving it would not be worth while.
+
+    A short arc is worth it where its bound is far from what it bends: however short, it slows down
+    what is before and behind it.
+    """
+    bound, least, most = _curvature_bounds(r, width)
     cap = top
     if bound > 0.0:
         cap = min(top, lateral / bound, (turning / bound) ** 2)
     if cap >= top or bound <= tolerance * least:
         return cap, True
+    if bound > tolerance * most and width > _LEAST_WIDTH:
+        return cap, False
     longest = 0.0
     for k in range(3):
         square = 0.0
