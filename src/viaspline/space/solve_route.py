@@ -22,6 +22,7 @@ from viaspline.space.laying.corner_rounding import straight_span
 from viaspline.space.laying.gentle_turns import DEARER, ROUND_DEARER, GentleTurns
 from viaspline.space.laying.laid_route import LaidRoute, RouteLegs
 from viaspline.space.laying.via_directions import via_directions
+from viaspline.space.laying.via_turns import ROOMY
 from viaspline.space.led_route import KnownWays, RouteLayer
 from viaspline.space.leg_check import LegCheck, proven
 from viaspline.space.part_of_path import part_of_path
@@ -51,7 +52,9 @@ def solve_route(
         NoPathError: When there is none, proven.
         GaveUpError: When none was found.
     """
-    legs = RouteLegs.left_to_the_spline(problem.places, _directions(problem), problem.shape)
+    legs = RouteLegs.left_to_the_spline(
+        problem.places, _directions(problem), problem.shape, ROOMY * least_radius(problem)
+    )
     check = LegCheck(problem, cache(router.gates))
     layer = RouteLayer(problem, router, check, known={} if known is None else known)
     try:

@@ -15,6 +15,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.space.laying.clear_route import Check, ClearRoute, StuckLegError, clear_route
 from viaspline.space.laying.gentle_turns import GentleTurns
 from viaspline.space.laying.laid_route import CurveShape, RouteLegs
+from viaspline.space.laying.via_turns import ROOMY
 
 LEAST, GENTLE = 0.5, 20.0
 
@@ -47,7 +48,8 @@ def turns(check: Check = free) -> GentleTurns[ClearRoute]:
 def spline(vias: Floats, given: Floats | None = None) -> ClearRoute:
     free_ways = np.full(vias.shape, np.nan)
     shape = CurveShape(np.zeros(len(vias) - 1))
-    legs = RouteLegs.left_to_the_spline(vias, free_ways if given is None else given, shape)
+    ways = free_ways if given is None else given
+    legs = RouteLegs.left_to_the_spline(vias, ways, shape, ROOMY * LEAST)
     return clear_route(legs, free, nothing_in_the_way, GENTLE)
 
 

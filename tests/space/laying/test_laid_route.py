@@ -14,7 +14,7 @@ def random_route(seed: int) -> RouteLegs:
     count = int(rng.integers(2, 8))
     vias = rng.uniform(0, 100, (count, 3))
     legs = RouteLegs.left_to_the_spline(
-        vias, np.full((count, 3), np.nan), CurveShape(rng.uniform(-0.5, 0.8, count - 1))
+        vias, np.full((count, 3), np.nan), CurveShape(rng.uniform(-0.5, 0.8, count - 1)), 0.5
     )
     for leg in np.flatnonzero(rng.random(count - 1) < 0.4).tolist():
         inner = rng.uniform(0, 100, (int(rng.integers(0, 4)), 3))

@@ -37,6 +37,9 @@ LEAST_STUB = 1e-6
 SETTLING = 8
 """How often corners are moved outward, and stubs made longer."""
 
+STUBS_SETTLING = 4
+"""How often two stubs with nothing between them are pointed at each other's ends."""
+
 
 @kernel
 def corner_polygon(points: Floats, directions: Floats, radii: Floats) -> tuple[Floats, Floats]:
@@ -79,23 +82,35 @@ def _with_stubs(
     for axis in range(axes):
         polygon[0, axis] = points[0, axis]
         polygon[len(polygon) - 1, axis] = points[count - 1, axis]
+    if begins:
+        polygon[1] = points[0]
+    if ends:
+        polygon[len(polygon) - 2] = points[count - 1]
     for k in range(1, count - 1):
         wanted[k - 1 + begins] = radii[k]
         for axis in range(axes):
             polygon[k + begins, axis] = corners[k, axis]
     if begins:
-        beside = corners[1] if count > 2 else points[1]
-        stub = stub_length(beside - points[0], directions[0], radii[0])
         wanted[0] = radii[0]
-        for axis in range(axes):
-            polygon[1, axis] = points[0, axis] + stub * directions[0, axis]
     if ends:
-        beside = corners[count - 2] if count > 2 else points[0]
-        stub = stub_length(beside - points[count - 1], -directions[1], radii[count - 1])
         wanted[len(wanted) - 1] = radii[count - 1]
-        for axis in range(axes):
-            at = points[count - 1, axis] - stub * directions[1, axis]
-            polygon[len(polygon) - 2, axis] = at
+    both = begins and ends and count == 2  # the one stub points at the end of the other
+    for _ in range(STUBS_SETTLING if both else 1):
+        if begins:
+            beside = corners[1]
+            if both:
+                beside = polygon[2]
+            stub = stub_length(beside - points[0], directions[0], radii[0])
+            for axis in range(axes):
+                polygon[1, axis] = points[0, axis] + stub * directions[0, axis]
+        if ends:
+            beside = corners[count - 2]
+            if both:
+                beside = polygon[1]
+            stub = stub_length(beside - points[count - 1], -directions[1], radii[count - 1])
+            for axis in range(axes):
+                at = points[count - 1, axis] - stub * directions[1, axis]
+                polygon[len(polygon) - 2, axis] = at
     return polygon, wanted
 
 

@@ -18,7 +18,6 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.space.laying.laid_route import LaidRoute, RouteLegs, lay_route
 from viaspline.space.laying.leg_polygon import LegPolygon
-from viaspline.space.laying.via_directions import via_directions
 
 TIGHTER: Final = 0.6
 """By which a corner's radius is tightened at a time."""
@@ -72,11 +71,7 @@ def clear_route(legs: RouteLegs, check: Check, lead_round: LeadRound, radius: fl
     """
     proven: set[int] = set()
     while True:
-        ways = via_directions(legs.vias, legs.inner, legs.given)
-        for leg, inner in enumerate(legs.inner):
-            if inner is not None and leg not in proven:
-                legs = _tightened(legs, leg, ways, check)
-                proven.add(leg)
+        legs, proven = _all_tightened(legs, proven, check)
         laid = lay_route(legs)
         blocked = [
             leg
@@ -85,24 +80,39 @@ def clear_route(legs: RouteLegs, check: Check, lead_round: LeadRound, radius: fl
         ]
         if not blocked:
             return ClearRoute(legs, laid)
+        before = legs
         for leg in blocked:
             legs = legs.led_round(leg, lead_round(leg, laid.leg(leg)), radius)
-        proven = _unchanged(legs, ways, proven)
+        proven = _unchanged(legs, before, proven)
 
 
-def _unchanged(legs: RouteLegs, before: Floats, proven: set[int]) -> set[int]:
-    """Those of the proven legs whose directions at both ends are as before."""
-    after = via_directions(legs.vias, legs.inner, legs.given)
-    same = np.all((before == after) | (np.isnan(before) & np.isnan(after)), axis=1)
+def _unchanged(legs: RouteLegs, before: RouteLegs, proven: set[int]) -> set[int]:
+    """Those of the proven legs that have the same directions and turns at both ends as before."""
+    after = np.hstack((legs.ways(), legs.turns()))
+    earlier = np.hstack((before.ways(), before.turns()))
+    same = np.all((earlier == after) | (np.isnan(earlier) & np.isnan(after)), axis=1)
     return {leg for leg in proven if same[leg] and same[leg + 1]}
 
 
-def _tightened(legs: RouteLegs, leg: int, ways: Floats, check: Check) -> RouteLegs:
+def _all_tightened(legs: RouteLegs, proven: set[int], check: Check) -> tuple[RouteLegs, set[int]]:
+    """A route with all legs that aren't the spline as gentle as they can be, and the proven ones.
+
+    A leg that is tightened at a via point has a tighter turn there, and so has its neighbour, which
+    is looked at again.
+    """
+    led = [leg for leg, inner in enumerate(legs.inner) if inner is not None]
+    while pending := [leg for leg in led if leg not in proven]:
+        tighter = _tightened(legs, pending[0], check)
+        proven = _unchanged(tighter, legs, proven) | {pending[0]}
+        legs = tighter
+    return legs, proven
+
+
+def _tightened(legs: RouteLegs, leg: int, check: Check) -> RouteLegs:
     """A route with one leg as gentle as it can be."""
     inner = legs.inner[leg]
     assert inner is not None  # the spline has no corners to tighten
-    points = np.concatenate((legs.vias[leg : leg + 1], inner, legs.vias[leg + 1 : leg + 2]))
-    polygon = tightened_leg(LegPolygon(points, ways[leg : leg + 2], legs.radii[leg]), leg, check)
+    polygon = tightened_leg(legs.polygon(leg, inner, legs.ways(), legs.turns()), leg, check)
     radii = (*legs.radii[:leg], polygon.radii, *legs.radii[leg + 1 :])
     return replace(legs, radii=radii)
 

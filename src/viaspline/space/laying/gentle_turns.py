@@ -32,12 +32,10 @@ from viaspline.space.laying.turn_ways import (
     head_of,
     other_ways,
 )
+from viaspline.space.laying.via_turns import ROOMY
 
 ROUND: Final = 0.999
 """A turn that is this near to the least radius is as round."""
-
-ROOMY: Final = 1.25
-"""Than the least radius the wanted one is so much wider: corners that are moved get sharper."""
 
 ARC_SHARE: Final = 0.77
 """The radius in the middle of such a corner, of the arc's: it is gentler before and after."""
@@ -171,7 +169,7 @@ class GentleTurns(Generic[Route]):
                 dearer = self.dearer if self._is_round(laid, turn) else DEARER
                 if cost <= dearer * most:
                     best, rank = laid, (its, cost)
-            if self._is_round(best, turn):
+            if self._is_round(best, turn) and rank[1] <= DEARER * most:
                 break
         return best
 

@@ -7,6 +7,7 @@ there; so the curve is G2 wherever the tangents are ``continuous``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +17,7 @@ from viaspline.curve.cardinal import CardinalSpline, Knots, Tangents
 from viaspline.kernels.arrays import Floats
 from viaspline.space.laying.leg_polygon import LegPolygon
 from viaspline.space.laying.via_directions import Inner, via_directions
+from viaspline.space.laying.via_turns import aside_radius, via_turns
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +46,8 @@ class RouteLegs:
         radii: How gently legs that aren't the spline turn at their via points and detours [m], one
             array (k + 2,) for each leg.
         shape: Of the spline.
+        close: How close turns at via points may be where a wide one would be a loop [m]; infinite:
+            as close as other corners.
     """
 
     vias: Floats
@@ -51,12 +55,15 @@ class RouteLegs:
     inner: tuple[Inner, ...]
     radii: tuple[Floats, ...]
     shape: CurveShape
+    close: float = math.inf
 
     @classmethod
-    def left_to_the_spline(cls, vias: Floats, given: Floats, shape: CurveShape) -> RouteLegs:
+    def left_to_the_spline(
+        cls, vias: Floats, given: Floats, shape: CurveShape, close: float = math.inf
+    ) -> RouteLegs:
         """A route without a detour."""
         count = len(vias) - 1
-        return cls(vias, given, (None,) * count, (np.empty(0),) * count, shape)
+        return cls(vias, given, (None,) * count, (np.empty(0),) * count, shape, close)
 
     def led_round(self, leg: int, inner: Floats, radius: float) -> RouteLegs:
         """This route with detour via points on one leg.
@@ -88,6 +95,33 @@ class RouteLegs:
             radii=(*self.radii[:leg], radii, *self.radii[leg + 1 :]),
         )
 
+    def ways(self) -> Floats:
+        """Directions at the via points; see ``via_directions``, (n, d)."""
+        return via_directions(self.vias, self.inner, self.given)
+
+    def turns(self) -> Floats:
+        """Turns at the via points; see ``via_turns``, (n, 2 d + 3)."""
+        return via_turns(self.vias, self.inner, self.given, self.radii, self.close)
+
+    def polygon(self, leg: int, inner: Floats, ways: Floats, turns: Floats) -> LegPolygon:
+        """What a leg is laid through that isn't the spline.
+
+        Args:
+            leg: Which one.
+            inner: Its corners [m], (k, d).
+            ways: At all via points, see ``ways``.
+            turns: Likewise.
+        """
+        points = np.concatenate((self.vias[leg : leg + 1], inner, self.vias[leg + 1 : leg + 2]))
+        radii, its = self.radii[leg], turns[leg : leg + 2]
+        for end, sign, beside in ((0, 1.0, 1), (-1, -1.0, -2)):
+            via, way = leg - end, sign * ways[leg - end]
+            if np.isnan(its[end, -1]) and np.isnan(self.given[via, 0]) and not np.isnan(way[0]):
+                radii = radii.copy()
+                apart = points[beside] - points[end]
+                radii[end] = aside_radius(way, apart, float(radii[end]), self.close)
+        return LegPolygon(points, ways[leg : leg + 2], radii, its)
+
 
 @dataclass(frozen=True, eq=False)
 class LaidRoute:
@@ -118,7 +152,7 @@ def lay_route(legs: RouteLegs) -> LaidRoute:
     >>> bool(np.array_equal(laid.spans[laid.joints[1], 0], vias[1])), laid.detours[1]
     (True, array([], dtype=int64))
     """
-    ways = via_directions(legs.vias, legs.inner, legs.given)
+    ways, turns = legs.ways(), legs.turns()
     pieces: list[Floats] = []
     joints, detours = [0], []
     leg = 0
@@ -133,8 +167,7 @@ def lay_route(legs: RouteLegs) -> LaidRoute:
             pieces.append(run)
         else:
             end = leg + 1
-            points = np.concatenate((legs.vias[leg : leg + 1], inner, legs.vias[end : end + 1]))
-            spans, within = LegPolygon(points, ways[leg : end + 1], legs.radii[leg]).spans()
+            spans, within = legs.polygon(leg, inner, ways, turns).spans()
             detours.append(joints[-1] + within.astype(np.intp))
             joints.append(joints[-1] + len(spans))
             pieces.append(spans)

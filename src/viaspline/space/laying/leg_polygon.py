@@ -4,18 +4,19 @@ A leg leaves its first via point along a direction and meets its last one along 
 short straight stub, so that what comes before and after joins it without a jump of direction or
 curvature. In between it turns at detour via points. A corner is moved outward by as much as its
 rounding cuts off, so the curve passes (nearly) through the taut way's corner, on the outside of it:
-a detour via point is where the curve is in the middle of that.
+a detour via point is where the curve is in the middle of that. So is a via point that has a turn.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.space.corner_polygon import corner_polygon
 from viaspline.space.laying.corner_rounding import rounded
+from viaspline.space.laying.via_turns import no_turns, turn_from, turn_to
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,11 +29,14 @@ class LegPolygon:
             where it is free.
         radii: How gently to turn at the first via point, the detours and the last one: radii of
             curvature to be had if there is room [m], shape (k + 2,).
+        turns: At the first and the last via point, in place of a direction; see ``via_turns``,
+            (2, 2 d + 3), a row of NaN where there is none.
     """
 
     points: Floats
     directions: Floats
     radii: Floats
+    turns: Floats = field(default_factory=lambda: no_turns(2, 3))
 
     def spans(self) -> tuple[Floats, Floats]:
         """The leg's curve.
@@ -51,8 +55,31 @@ class LegPolygon:
 
     def curve(self) -> Floats:
         """The leg's curve alone: Bézier control polygons [m], (m, 4, d)."""
-        polygon, reaches = corner_polygon(self.points, self.directions, self.radii)
-        return rounded(polygon, reaches)
+        begun, ended, points, directions = self._after_turns()
+        polygon, reaches = corner_polygon(points, directions, self.radii)
+        spans = rounded(polygon, reaches)
+        return np.concatenate((begun, spans, ended)) if len(begun) or len(ended) else spans
+
+    def _after_turns(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """What the leg has of turns at both its ends, and what is between: places, directions."""
+        points, directions = self.points, self.directions
+        begun = ended = np.empty((0, 4, points.shape[1]))
+        turns, wanted = ~np.isnan(self.turns[:, -1]), self.radii.tolist()
+        if not turns.any():
+            return begun, ended, points, directions
+        points, directions = points.copy(), directions.copy()
+        if turns[0]:
+            span = turn_from(self.points[0], self.turns[0], self.points[1], wanted[0])
+            begun, points[0], directions[0] = span[None], span[3], _way(span[2], span[3])
+        if turns[1]:
+            span = turn_to(self.points[-1], self.turns[1], self.points[-2], wanted[-1])
+            ended, points[-1], directions[1] = span[None], span[0], _way(span[0], span[1])
+        return begun, ended, points, directions
+
+
+def _way(first: Floats, last: Floats) -> Floats:
+    """The direction from one place to another."""
+    return np.asarray((last - first) / np.linalg.norm(last - first))
 
 
 def _with_joints(spans: Floats, places: Floats) -> tuple[Floats, Floats]:
