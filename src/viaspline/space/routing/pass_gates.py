@@ -50,6 +50,8 @@ def gate(solid: Solid, start: ArrayLike, goal: ArrayLike, allowed: Iterable[Pass
     >>> mast = Prism(RoundedRing([[(50.0, 0.0)]], 2.0), 0.0, 20.0)
     >>> gate(mast, (0, 0, 5), (100, 0, 5), ["left"]).tolist()
     [[50.0, 0.0, 1.0, 0.0, -2.0, 2.0, 10.0, 1.0]]
+    >>> gate(mast, (0, 0, 5), (100, 0, 5), ["over"])[0, 6:].tolist()  # over all of it
+    [20.0, 4.0]
     """
     ends = np.array([start, goal], np.float64)
     dx, dy = (ends[1, :2] - ends[0, :2]).tolist()
@@ -62,6 +64,8 @@ def gate(solid: Solid, start: ArrayLike, goal: ArrayLike, allowed: Iterable[Pass
     least, most, low, high = _covered(solid, (x, y), ahead, (low, high))
     middle = low if low == -math.inf else high if high == math.inf else 0.5 * (low + high)
     bits = sum(SIDE_BITS[side] for side in set(allowed))
+    if bits in (OVER, UNDER) and isinstance(solid, Prism) and fills_gate(solid, (x, y), ahead):
+        middle = high if bits == OVER else low  # nothing passes in between, and a search knows it
     return np.array([[x, y, *ahead, least, most, middle, float(bits)]])
 
 
@@ -125,6 +129,17 @@ def section_of(
     line = shapely.LineString([middle - reach * left, middle + reach * left])
     crossed = shapely.get_coordinates(ring.outline().intersection(line))
     return np.asarray(crossed - middle)
+
+
+def fills_gate(solid: Prism, middle: tuple[float, float], ahead: tuple[float, float]) -> bool:
+    """Whether a prism covers its gate without a gap, from its one side to its other.
+
+    Args:
+        solid: The prism.
+        middle: Of its gate, in plan [m].
+        ahead: The direction across the gate, a unit vector.
+    """
+    return solid.ring.is_disc or len(section_of(solid.ring, middle, ahead)) == 2
 
 
 def _covered_by_line(

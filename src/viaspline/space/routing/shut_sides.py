@@ -27,7 +27,7 @@ from viaspline.kernels.space.routing.side_gates import (
     RIGHT,
 )
 from viaspline.mission.shapes.solids import Prism, Solid
-from viaspline.space.routing.pass_gates import section_of
+from viaspline.space.routing.pass_gates import fills_gate
 from viaspline.space.routing.search_room import SearchRoom
 
 
@@ -56,7 +56,9 @@ def is_shut(
     side = int(row[ALLOWED])
     if side in (LEFT, RIGHT):
         return _is_shut_beside(room, row, required + room.body)
-    if not isinstance(solid, Prism) or not _fills_its_gate(solid, row):
+    if not isinstance(solid, Prism):
+        return False
+    if not fills_gate(solid, (row[GATE_X], row[GATE_Y]), (row[AHEAD_X], row[AHEAD_Y])):
         return False
     low, high = solid.low, solid.high
     if side == OVER:
@@ -74,11 +76,3 @@ def _is_shut_beside(room: SearchRoom, row: Floats, kept: float) -> bool:
             limit = room.limits[3 + axis] - kept if way[axis] > 0.0 else room.limits[axis] + kept
             farthest = min(farthest, (limit - row[column]) / way[axis])
     return bool(farthest <= (row[MOST] if side > 0.0 else -row[LEAST]))
-
-
-def _fills_its_gate(solid: Prism, row: Floats) -> bool:
-    """Whether a prism covers its gate without a gap, from its one side to its other."""
-    if solid.ring.is_disc:
-        return True
-    middle = float(row[GATE_X]), float(row[GATE_Y])
-    return len(section_of(solid.ring, middle, (float(row[AHEAD_X]), float(row[AHEAD_Y])))) == 2

@@ -23,6 +23,7 @@ from viaspline.kernels.space.routing.could_be_free import APART, are_apart
 from viaspline.kernels.space.routing.lazy_theta import lattice_way
 from viaspline.kernels.space.routing.pull_taut import taut_way
 from viaspline.kernels.space.routing.route_protocol import PlaceLattice
+from viaspline.kernels.space.routing.travel_past import least_travel
 from viaspline.kernels.space.routing.voxel_block import VoxelBlock
 from viaspline.kernels.space.routing.way_checks import way_cost, way_is_free
 from viaspline.kernels.space.space_distance import space_distances
@@ -51,6 +52,9 @@ _CHEAPER = 10  # places among voxels alone for one among solids
 _COARSE = 1.1  # times what a taut way may cost: a way through a lattice that becomes it
 _ROUNDING = 1e-6  # of such a hair: by what answers about cubes may differ from those of a world
 _ABOUT = 1.0  # of the way as the crow flies: what lies so near to its ends is as large as it
+_GREEDY = (
+    2.0  # weight of the estimate for ways that are dearer than is worth while, whichever it is
+)
 _WORTH = 1.01  # times the best so far: what a way may cost before it is pulled taut
 
 
@@ -199,6 +203,8 @@ class SpaceRouter:
     ) -> Floats:
         """A way through the lattice that is free in a space."""
         weight = self.weight if isinstance(space, PackedSpace) else self.cube_weight
+        if least_travel(query.gates, query.norm, *query.ends) > self.worth:
+            weight = max(weight, _GREEDY)
         way: Floats = lattice_way(
             space, query.gates, query.norm, lattice, query.ends[0], query.ends[1], query.radius,
             weight, _COARSE * self.most_cost, self._most_nodes(space),

@@ -48,6 +48,7 @@ from viaspline.kernels.space.routing.route_protocol import (
 )
 from viaspline.kernels.space.routing.side_gates import gates_allow
 from viaspline.kernels.space.routing.travel_norm import travel_between
+from viaspline.kernels.space.routing.travel_past import travel_past
 
 _START, _GOAL = 0, 1
 _FIRST_ROOM = 1024
@@ -66,13 +67,28 @@ def _line_is_free(space: Any, gates: Floats, places: Floats, i: int, j: int, rad
 
 @inlined
 def _reach(
-    nodes: LatticeNodes, norm: Floats, weight: float, bound: float, node: int, parent: int
+    nodes: LatticeNodes,
+    gates: Floats,
+    norm: Floats,
+    weight: float,
+    bound: float,
+    node: int,
+    parent: int,
 ) -> None:
     """Let a node be reached from a parent, if that is cheaper, and not too dear."""
     places = nodes.places
     cost = places[parent, COST] + travel_between(norm, places, parent, node)
     if cost < places[node, COST]:
-        ahead = travel_between(norm, places, node, _GOAL)
+        ahead = travel_past(
+            gates,
+            norm,
+            places[node, X],
+            places[node, Y],
+            places[node, Z],
+            places[_GOAL, X],
+            places[_GOAL, Y],
+            places[_GOAL, Z],
+        )
         if cost + ahead <= bound:
             places[node, COST] = cost
             nodes.links[node, PARENT] = parent
@@ -120,7 +136,7 @@ def _begin(
     nodes.links[_START, PARENT] = _START
     nodes.links[_START, STATE] = SETTLED
     if _line_is_free(space, gates, nodes.places, _START, _GOAL, radius):
-        _reach(nodes, norm, weight, bound, _GOAL, _START)
+        _reach(nodes, gates, norm, weight, bound, _GOAL, _START)
         return nodes
     for move in range(27):
         i = _nearest_row(lattice, 0, start[0]) + move // 9 - 1
@@ -129,7 +145,7 @@ def _begin(
         if is_place(lattice, i, j, k):
             node = _new_node(space, nodes, lattice, i, j, k, radius)
             if _line_is_free(space, gates, nodes.places, _START, node, radius):
-                _reach(nodes, norm, weight, bound, node, _START)
+                _reach(nodes, gates, norm, weight, bound, node, _START)
     return nodes
 
 
@@ -178,6 +194,7 @@ def _settle(
 @inner
 def _spread(
     space: Any,
+    gates: Floats,
     nodes: LatticeNodes,
     norm: Floats,
     lattice: PlaceLattice,
@@ -202,7 +219,7 @@ def _spread(
             if other < 0:
                 other = _new_node(space, nodes, lattice, x, y, z, radius)
             if nodes.links[other, STATE] == OPEN:
-                _reach(nodes, norm, weight, bound, other, parent)
+                _reach(nodes, gates, norm, weight, bound, other, parent)
 
 
 @inner
@@ -295,7 +312,7 @@ def lattice_way(
         ):
             continue
         nodes.links[here, STATE] = SETTLED
-        _spread(space, nodes, norm, lattice, here, moves, radius, weight, bound)
+        _spread(space, gates, nodes, norm, lattice, here, moves, radius, weight, bound)
         if _sees_goal(space, gates, nodes, lattice, here, radius):
-            _reach(nodes, norm, weight, bound, _GOAL, here)
+            _reach(nodes, gates, norm, weight, bound, _GOAL, here)
     return new_floats(0, 3), expanded
