@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import pickle
 import tempfile
+from contextlib import suppress
 from copy import deepcopy
 
 import numpy as np
@@ -17,7 +18,9 @@ import viaspline as vs
 from viaspline.errors import GaveUpError, NoPathError
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.ledger import Candidate
+from viaspline.space.laying.clear_route import StuckLegError
 from viaspline.space.laying.laid_route import RouteLegs
+from viaspline.space.laying.sooner_corners import with_fewer
 from viaspline.space.laying.via_turns import ROOMY
 from viaspline.space.led_route import RouteLayer
 from viaspline.space.leg_check import LegCheck
@@ -327,6 +330,29 @@ def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int
     assert plan.trajectory.duration == pytest.approx(cost(together.laid))
     better_alone = [one for entry in plan.ledger for one in entry.candidates if one.passed_over]
     assert NO_CHEAPER in {one.passed_over for one in better_alone}
+
+
+@pytest.mark.parametrize("seed", [39, 58])
+def test_no_corner_is_left_out_of_a_route_that_makes_it_sooner(seed: int) -> None:
+    """Alone, from rest to rest, the leg has that corner: it costs no time there."""
+    data = city(seed)
+    data["route"]["via"] = [[90, 70, 20]]  # type: ignore[index]
+    mission = Mission.model_validate(data)
+    asked = spatial_problem_of(mission)
+    router = LegRouter(asked, mission)
+    layer = RouteLayer(asked, router, LegCheck(asked, router.gates))
+    free = np.full((3, 3), np.nan)
+    close = ROOMY * least_radius(asked)
+    legs = RouteLegs.left_to_the_spline(asked.places, free, asked.shape, close)
+    best, cost = layer.cheapest(legs)[0], cost_of(asked)
+    for leg, way in best.ways.items():
+        points = np.concatenate((legs.vias[leg][None], way.inner, legs.vias[leg + 1][None]))
+        for fewer in with_fewer(points, layer.radius):
+            led = legs
+            for k, other in best.ways.items():
+                led = led.led_round(k, fewer[1:-1] if k == leg else other.inner, layer.radius)
+            with suppress(StuckLegError):
+                assert cost(layer.lay(led, best.ways).laid) >= cost(best.laid) * (1 - 1e-3)
 
 
 def test_a_way_that_turns_more_sharply_than_the_robot_counts_for_what_it_becomes() -> None:

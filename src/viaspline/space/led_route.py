@@ -18,6 +18,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
 from viaspline.space.laying.laid_route import RouteLegs
+from viaspline.space.laying.sooner_corners import with_fewer
 from viaspline.space.leg_check import LegCheck
 from viaspline.space.route_law import cost_of
 from viaspline.space.spatial_account import LedLeg, SpatialAccount, UntoldSides
@@ -42,6 +43,9 @@ NEARLY: Final = 1.1
 
 LEAST_GAIN: Final = 1e-3
 """Part of the cost of a route that has to be gained by one of these."""
+
+MOST_FEWER: Final = 16
+"""So many ways with fewer corners are tried in their route at most."""
 
 
 class LedWay(NamedTuple):
@@ -131,7 +135,7 @@ class RouteLayer:
         ]
         if differ:
             best = self._by_other_ways(legs, best, differ)
-        together = self._best_together(legs, best)
+        together = self._with_fewer_corners(legs, self._best_together(legs, best))
         return [best] if together is best else [together, best]
 
     def _by_other_ways(self, legs: RouteLegs, best: LedRoute, differ: list[int]) -> LedRoute:
@@ -171,6 +175,33 @@ class RouteLayer:
                     continue
                 best, least = other, price
         return best
+
+    def _with_fewer_corners(self, legs: RouteLegs, found: LedRoute) -> LedRoute:
+        """A route with fewer corners of its legs, as long as the whole of it gets cheaper by that.
+
+        Which corners cost time alone, from rest to rest, was tried before; between its neighbours a
+        leg is flown faster. One leg that is all of the route is weighed alone, and where the length
+        counts corners cost nothing.
+        """
+        if len(legs.inner) == 1 or self.problem.objective == "length":
+            return found
+        cost = cost_of(self.problem)
+        best, least, tried = found, cost(found.laid), 0
+        for leg in sorted(found.ways):
+            others = self._fewer_of(leg, best)
+            while tried < MOST_FEWER and (way := next(others, None)) is not None:
+                tried += 1
+                other = self._led_by(legs, {**best.ways, leg: way})
+                if other is not None and (price := cost(other.laid)) < least * (1 - LEAST_GAIN):
+                    best, least, others = other, price, self._fewer_of(leg, other)
+        return best
+
+    def _fewer_of(self, leg: int, route: LedRoute) -> Iterator[LedWay]:
+        """The way of a leg with fewer corners: a curve may pass where its lines don't."""
+        way, ends = route.ways[leg], route.legs.vias[leg : leg + 2]
+        points = np.concatenate((ends[:1], way.inner, ends[1:]))
+        for fewer in with_fewer(points, self.radius):
+            yield way._replace(inner=fewer[1:-1])
 
     def lay(self, legs: RouteLegs, before: Mapping[int, LedWay]) -> LedRoute:
         """The route with what isn't clear of it led round.

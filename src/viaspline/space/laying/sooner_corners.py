@@ -57,7 +57,7 @@ def sooner_corners(points: Floats, radius: float, cost: Cost) -> Floats:
     tried = 0
     while True:
         sooner = None
-        for other in _with_fewer(found, radius):
+        for other in with_fewer(found, radius):
             tried += 1
             price = cost(other)
             if price < (1.0 - LEAST_GAIN) * least:
@@ -70,8 +70,13 @@ def sooner_corners(points: Floats, radius: float, cost: Cost) -> Floats:
         found = sooner
 
 
-def _with_fewer(points: Floats, radius: float) -> Iterator[Floats]:
-    """Polylines with one corner left out, then with several taken as one; with one at least."""
+def with_fewer(points: Floats, radius: float) -> Iterator[Floats]:
+    """Polylines with one corner left out, then with several taken as one; with one at least.
+
+    Args:
+        points: Via point, corners and via point [m], (n, d).
+        radius: Of curvature that is wanted at corners [m].
+    """
     count = len(points) - 2
     for size in range(1, min(MOST_AS_ONE, count) + 1):
         for first in range(1, count - size + 2):
