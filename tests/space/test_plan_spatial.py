@@ -311,7 +311,7 @@ def test_no_via_point_that_nobody_needs_makes_a_flight_sooner(beside: tuple[int,
     assert alone.trajectory.duration <= by_hand.trajectory.duration * (1 + 2e-3)
 
 
-@pytest.mark.parametrize("seed", [20, 22, 56])
+@pytest.mark.parametrize("seed", [56, 63, 70])
 def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int) -> None:
     """With its neighbour another way is better than the one that is the best alone."""
     data = city(seed)
@@ -332,7 +332,7 @@ def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int
     assert NO_CHEAPER in {one.passed_over for one in better_alone}
 
 
-@pytest.mark.parametrize("seed", [39, 58])
+@pytest.mark.parametrize("seed", [39, 73])
 def test_no_corner_is_left_out_of_a_route_that_makes_it_sooner(seed: int) -> None:
     """Alone, from rest to rest, the leg has that corner: it costs no time there."""
     data = city(seed)

@@ -10,13 +10,20 @@ a detour via point is where the curve is in the middle of that. So is a via poin
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.space.corner_polygon import corner_polygon
 from viaspline.space.laying.corner_rounding import rounded
 from viaspline.space.laying.via_turns import no_turns, turn_from, turn_to
+
+GENTLER: Final = 100.0
+"""Than the turn at a via point itself is what is left to turn behind it, if there is room."""
+
+STRAIGHT: Final = 2e-6
+"""What is left to turn there by less than that [rad] isn't: bends of micrometres are noise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,26 +62,43 @@ class LegPolygon:
 
     def curve(self) -> Floats:
         """The leg's curve alone: Bézier control polygons [m], (m, 4, d)."""
-        begun, ended, points, directions = self._after_turns()
-        polygon, reaches = corner_polygon(points, directions, self.radii)
-        spans = rounded(polygon, reaches)
-        return np.concatenate((begun, spans, ended)) if len(begun) or len(ended) else spans
+        turned = ~np.isnan(self.turns[:, -1])
+        if not turned.any():
+            polygon, reaches = corner_polygon(self.points, self.directions, self.radii)
+            return rounded(polygon, reaches)
+        begun, ended, between = self._after_turns(turned)
+        polygon, reaches = corner_polygon(*between)
+        if turned[0] and _turn(polygon[:3]) < STRAIGHT:
+            between[1][0] = np.nan
+        if turned[1] and _turn(polygon[-3:]) < STRAIGHT:
+            between[1][1] = np.nan
+        if np.isnan(between[1][turned]).any():
+            polygon, reaches = corner_polygon(*between)
+        return np.concatenate((begun, rounded(polygon, reaches), ended))
 
-    def _after_turns(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """What the leg has of turns at both its ends, and what is between: places, directions."""
-        points, directions = self.points, self.directions
+    def _after_turns(self, turned: Flags) -> tuple[Floats, Floats, tuple[Floats, Floats, Floats]]:
+        """What the leg has of turns at both its ends, and what is between.
+
+        Args:
+            turned: At which of its ends it has one, (2,).
+        """
+        points, directions, radii = self.points.copy(), self.directions.copy(), self.radii.copy()
         begun = ended = np.empty((0, 4, points.shape[1]))
-        turns, wanted = ~np.isnan(self.turns[:, -1]), self.radii.tolist()
-        if not turns.any():
-            return begun, ended, points, directions
-        points, directions = points.copy(), directions.copy()
-        if turns[0]:
-            span = turn_from(self.points[0], self.turns[0], self.points[1], wanted[0])
+        if turned[0]:
+            span = turn_from(self.points[0], self.turns[0], self.points[1], float(radii[0]))
             begun, points[0], directions[0] = span[None], span[3], _way(span[2], span[3])
-        if turns[1]:
-            span = turn_to(self.points[-1], self.turns[1], self.points[-2], wanted[-1])
+            radii[0] *= GENTLER
+        if turned[1]:
+            span = turn_to(self.points[-1], self.turns[1], self.points[-2], float(radii[-1]))
             ended, points[-1], directions[1] = span[None], span[0], _way(span[0], span[1])
-        return begun, ended, points, directions
+            radii[-1] *= GENTLER
+        return begun, ended, (points, directions, radii)
+
+
+def _turn(points: Floats) -> float:
+    """By how much a way through three places turns at the second one [rad], nearly, if little."""
+    into, out = _way(points[0], points[1]), _way(points[1], points[2])
+    return float(np.linalg.norm(out - into))
 
 
 def _way(first: Floats, last: Floats) -> Floats:
