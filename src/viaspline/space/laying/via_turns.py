@@ -116,5 +116,5 @@ def _half(via: Floats, sign: float, turn: Floats, towards: Floats, wanted: float
 
 def _radius(turn: Floats, wanted: float) -> float:
     """The radius of a turn [m] where a leg wants one."""
-    most, share, close = turn[-3:].tolist()
+    most, share, close = (float(one) for one in turn[-3:])
     return min(most, max(min(close, wanted), share * wanted))
