@@ -37,7 +37,7 @@ def plan(mission: AskedMission) -> Plan | SpatialPlan:
         ...     "route": {"start": [0, 0, 10], "goal": [50, 0, 10]},
         ... }))
         >>> result.certificate.holds, round(result.path.length, 1), result.ledger[0].chosen.side
-        (True, 50.9, 'right')
+        (True, 50.8, 'right')
     """
     asked = asked_mission(mission)
     if asked.is_spatial:

@@ -143,6 +143,26 @@ def certify(
         >>> round(certify(curve, world, 1.0, footprint=body).clearance, 2)
         1.5
     """
+    clearance, radius = room_from(clearance, radius)
+    return certified(curve, world, clearance, radius, footprint)
+
+
+def certified(
+    curve: PiecewiseCubic | StatedCurve | Any,
+    world: Surroundings,
+    clearance: float,
+    radius: float,
+    footprint: ArrayLike | None,
+) -> Certificate:
+    """See ``certify``; for robots that stand nearer to something than they should as well.
+
+    Args:
+        curve: See there, and the others.
+        world: Likewise.
+        clearance: Below 0 where the body may overlap something by that [m].
+        radius: Likewise.
+        footprint: Likewise.
+    """
     check_answers("world", world, "packed", "give a World")
     whole = provable_curve(curve)
     if footprint is not None and not whole.has_its_tangents:
@@ -161,14 +181,13 @@ def certify(
             f"a curve of dimension {curve.dimension} can't be certified in a world of dimension "
             f"{dimension(world.packed)}; give it heights"
         )
-    clearance, radius = room_from(clearance, radius)
     found = _proven(_bounder(curve, world, footprint), clearance + radius + whole.off)
     contact = None if found.nearest == -1 else found.contact
     u = float(found.span + found.w)
     at = np.asarray(curve.evaluate(u))
     return Certificate(
-        clearance=float(found.lower) - float(radius) - whole.off,
-        required=float(clearance),
+        clearance=float(found.lower) - radius - whole.off,
+        required=clearance,
         tightest_at=tuple(at.tolist()),
         tightest_u=u if given is curve else whole.parameter(u),
         tightest_distance=float(curve.distance(u)),

@@ -15,9 +15,9 @@ def rounded(value: float, digits: int) -> str:
 
     >>> rounded(812.345, 1), rounded(0.183, 1), rounded(0.0046, 2)
     ('812.3', '0.18', '0.0046')
-    >>> rounded(-0.0, 2), rounded(1e-6, 2)
-    ('0.00', '0.00')
+    >>> rounded(-0.0, 2), rounded(1e-6, 2), rounded(0.09999, 2)
+    ('0.00', '0.00', '0.10')
     """
     if LEAST_TOLD <= abs(value) < 10.0 ** (1 - digits):
-        return f"{value:.2g}"
+        return f"{value:#.2g}".rstrip(".")
     return f"{value + 0.0:.{digits}f}"

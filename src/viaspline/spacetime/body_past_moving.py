@@ -8,7 +8,7 @@ from __future__ import annotations
 from viaspline.curve.path import Path
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
+from viaspline.trajectory.moving_certificate import MovingCertificate, certified_moving
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -34,7 +34,7 @@ def certify_body(
         hold: For how long the robot stands at the end [s].
         apart: What is kept beyond what is required [m].
     """
-    return certify_moving(
-        path, law, moving, requirements.kept + apart, radius=requirements.disc_radius,
-        footprint=requirements.footprint, heading=robot.held_heading, hold=hold,
+    return certified_moving(
+        path, law, moving, requirements.kept + apart, requirements.disc_radius,
+        requirements.footprint, heading=robot.held_heading, hold=hold,
     )  # fmt: skip

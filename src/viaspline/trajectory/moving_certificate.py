@@ -117,9 +117,37 @@ def certify_moving(
         >>> round(proven.tightest_at_s, 1), round(proven.tightest_distance, 1)
         (6.6, 11.2)
     """
+    clearance, radius = room_from(clearance, radius)
+    return certified_moving(
+        path, trajectory, moving, clearance, radius, footprint, heading=heading, hold=hold
+    )  # fmt: skip
+
+
+def certified_moving(
+    path: PiecewiseCubic,
+    trajectory: Trajectory,
+    moving: MovingObstacles,
+    clearance: float,
+    radius: float,
+    footprint: ArrayLike | None,
+    *,
+    heading: float | None,
+    hold: float,
+) -> MovingCertificate:
+    """See ``certify_moving``; for robots that stand nearer to something than they should as well.
+
+    Args:
+        path: See there, and the others.
+        trajectory: Likewise.
+        moving: Likewise.
+        clearance: Below 0 where the body may overlap something by that [m].
+        radius: Likewise.
+        footprint: Likewise.
+        heading: Likewise.
+        hold: Likewise.
+    """
     check_kind("moving", moving, MovingObstacles, "give MovingObstacles([...])")
     timed = timed_path(path, trajectory)
-    clearance, radius = room_from(clearance, radius)
     body = POINT if footprint is None else outline(footprint)
     held = math.nan if heading is None else number_from("heading", heading)
     required = clearance + radius - PROOF_SLACK_M

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve import footprint_conflicts
-from viaspline.curve.certificate import PROOF_SLACK_M, Certificate, certify
+from viaspline.curve.certificate import PROOF_SLACK_M, Certificate, certified
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import conflicts
@@ -97,6 +97,5 @@ def proven(curve: PiecewiseCubic, world: World, requirements: Requirements) -> C
     """The certificate of a curve that the body drives."""
     cost = PROOF_S + PROOF_SPAN_S * len(curve.spans)
     requirements.spend(cost if requirements.footprint is None else cost + PROOF_BODY_S)
-    if requirements.footprint is None:
-        return certify(curve, world, requirements.kept, radius=requirements.radius)
-    return certify(curve, world, requirements.kept, footprint=requirements.footprint)
+    radius = requirements.radius if requirements.footprint is None else 0.0
+    return certified(curve, world, requirements.kept, radius, requirements.footprint)
