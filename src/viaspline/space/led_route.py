@@ -35,10 +35,10 @@ from viaspline.space.weighed_ways import (
 MOST_LEGS: Final = 8
 """Of so many legs at most it is tried for each by itself which of its ways are better."""
 
-MOST_OTHERS: Final = 3
+MOST_OTHERS: Final = 6
 """So many ways of a leg are tried in its route at most, beside the one that is the best alone."""
 
-NEARLY: Final = 1.1
+NEARLY: Final = 1.2
 """Ways that cost more alone, of the cheapest, aren't tried there."""
 
 LEAST_GAIN: Final = 1e-3
