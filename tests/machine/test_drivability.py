@@ -16,8 +16,9 @@ from viaspline.curve.path import Path, PathVia
 from viaspline.machine.drivability import BENT_1PM, Drivability
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.measure_drivability import drivability_of
-from viaspline.machine.turns_on_spot import SpotTurning, with_turns
+from viaspline.machine.turns_on_spot import with_turns
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import SpotTurning
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
@@ -156,6 +157,15 @@ def test_a_near_cusp_is_passed_as_slowly_as_the_limit_across_the_path_asks() -> 
     assert slowest == pytest.approx(math.sqrt(found.sharpest_radius), rel=0.06)
     assert found.max_lateral_accel <= 1.0 + 1e-9
     assert [math.degrees(cusp.turn) > 120 for cusp in found.near_cusps] == [True]
+
+
+@pytest.mark.parametrize("shift", [0.0, 4e6])
+def test_a_straight_path_at_an_odd_angle_has_no_sharpest_place(shift: float) -> None:
+    points = shift + np.array([(15.5, 8.0), (16.8, 4.9), (18.0, 2.0)])
+    points[1] = points[0] + 0.4 * (points[2] - points[0])
+    found, _ = driven(path_of(CardinalSpline(points)), RobotSpec(max_lateral_accel_mps2=0.5))
+    assert (found.sharpest_radius, found.sharpest) == (math.inf, None)
+    assert (found.max_lateral_accel, found.max_lateral_at) == (0.0, None)
 
 
 @pytest.mark.parametrize("robot", [{"max_yaw_rate_degps": 90}, {}])

@@ -14,8 +14,9 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.trial_drive import Track, follow
-from viaspline.machine.turns_on_spot import SpotTurning, with_turns
+from viaspline.machine.turns_on_spot import with_turns
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.spot_turning import SpotTurning
 from viaspline.trajectory.retime import retime
 
 

@@ -127,5 +127,8 @@ class Drivability:
 BENT_1PM = 0.02
 """Curvature below which a path is as good as straight, and jumps that nobody feels [1/m]."""
 
+STRAIGHT_1PM = 1e-7
+"""Curvature that is rounding: a circle of that is larger than the earth [1/m]."""
+
 NEAR_CUSP_RAD = math.radians(120)
 """A stretch that is sharper than the body's own circle is nearly a cusp if it turns so far."""

@@ -19,6 +19,7 @@ from viaspline.kernels.timing import across
 from viaspline.machine.drivability import (
     BENT_1PM,
     NEAR_CUSP_RAD,
+    STRAIGHT_1PM,
     Drivability,
     NearCusp,
     PathPlace,
@@ -140,7 +141,9 @@ class _Drive:
     @cached_property
     def nodes(self) -> Floats:
         """Rows of u, curvature and span, between which it only rises or falls, shape (n, 3)."""
-        return profile_kernels.curvature_profile(self.path.spans)
+        nodes = profile_kernels.curvature_profile(self.path.spans)
+        nodes[np.abs(nodes[:, 1]) < STRAIGHT_1PM, 1] = 0.0
+        return nodes
 
     @cached_property
     def cusps(self) -> Floats:
@@ -257,6 +260,8 @@ class _Drive:
         ))  # fmt: skip
         bends = np.zeros(len(self.path.spans))
         np.maximum.at(bends, self.nodes[:, 2].astype(int), np.abs(self.nodes[:, 1]))
+        if not bends.any():
+            return 0.0, None
         slip = 2.0 * place_slip(self.path.length) * float(np.abs(law.accelerations).max())
         value, u = across.largest_across(self.path.spans, bends, pieces, self._cells, power, slip)
         return float(value), None if value == 0.0 else self.place(float(u))
