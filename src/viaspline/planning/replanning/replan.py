@@ -18,7 +18,7 @@ from viaspline.curve.path import Path
 from viaspline.errors import NoPathError, PlanningError
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
-from viaspline.planning.checking.hairpin import has_hairpin
+from viaspline.planning.checking.sharpest_bend import HAIRPIN_1PM, sharpest_bend
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.replanning.departure import (
@@ -110,30 +110,37 @@ def _led_round(way: WayAhead, blocked: NDArray[np.intp]) -> Solution:
             raise
     if found is None:
         return best_taken_up(way, wide, blocked, way.joined(wide, rolling))
-    return found if wide == narrow else _without_hairpin(way, wide, blocked, found)
+    return found if wide == narrow else _rounder(way, wide, blocked, found)
 
 
-def _without_hairpin(
-    way: WayAhead, wide: Stretch, blocked: NDArray[np.intp], found: Solution
-) -> Solution:
-    """A path round something, but from where it may turn back on itself another, if there is one.
+def _rounder(way: WayAhead, wide: Stretch, blocked: NDArray[np.intp], found: Solution) -> Solution:
+    """A path round something; where it is sharper than the robot, another, if that is round.
 
-    A detour via point of the old path may lie where the new one can only turn back to it.
+    A detour via point of the old path may lie where the new one turns sharply to it, or back.
     """
-    if not _has_hairpin(way, found):
+    sharp = _sharpest(way, found)
+    if sharp <= _round_enough(way.requirements):
         return found
     try:
         other = best_taken_up(way, wide, blocked, way.joined(wide, rolling))
     except PlanningError:
         return found
-    return found if _has_hairpin(way, other) else other
+    most = HAIRPIN_1PM if sharp > HAIRPIN_1PM else _round_enough(way.requirements)
+    return other if _sharpest(way, other) <= most else found
 
 
-def _has_hairpin(way: WayAhead, solution: Solution) -> bool:
-    """Whether what is new of a path turns back on itself within next to nothing."""
+def _round_enough(requirements: Requirements) -> float:
+    """The curvature up to which nothing is too sharp under way [1/m]."""
+    if requirements.objective.is_time and requirements.outer_radius > 0.0:
+        return min(1.0 / requirements.outer_radius, HAIRPIN_1PM)
+    return HAIRPIN_1PM
+
+
+def _sharpest(way: WayAhead, solution: Solution) -> float:
+    """The largest curvature of what is new of a path [1/m]."""
     path, rejoins = solution.path, solution.rejoins_at
     end = path.domain[1] if rejoins is None else float(path.parameter(rejoins))
-    return has_hairpin(path, way.u, end)
+    return sharpest_bend(path, way.u, end)
 
 
 def planned(

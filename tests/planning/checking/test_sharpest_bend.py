@@ -1,15 +1,16 @@
-"""Hairpins are told from bends by the radius of a parabola, which is known in closed form."""
+"""The sharpest bend is that of a parabola, which is known in closed form."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
-from hypothesis import assume, given
+import pytest
+from hypothesis import given
 from hypothesis import strategies as st
 
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.planning.checking.hairpin import HAIRPIN_1PM, has_hairpin
+from viaspline.planning.checking.sharpest_bend import HAIRPIN_1PM, sharpest_bend
 
 
 def parabola(depth: float, across: float, angle: float) -> PiecewiseCubic:
@@ -24,17 +25,14 @@ def parabola(depth: float, across: float, angle: float) -> PiecewiseCubic:
 
 
 @given(st.floats(0.1, 20.0), st.floats(-4.0, 0.0), st.floats(0.0, math.tau))
-def test_what_turns_back_within_a_millimetre_is_a_hairpin(
-    depth: float, size: float, angle: float
-) -> None:
+def test_a_parabola_bends_most_where_it_turns_back(depth: float, size: float, angle: float) -> None:
     across = depth * 10.0**size
-    bend = 2.0 * depth / across**2
-    assume(abs(math.log(bend / HAIRPIN_1PM)) > 0.01)
-    assert has_hairpin(parabola(depth, across, angle), 1.0, 2.0) == (bend > HAIRPIN_1PM)
+    found = sharpest_bend(parabola(depth, across, angle), 1.0, 2.0)
+    assert found == pytest.approx(2.0 * depth / across**2, rel=1e-6)
 
 
 def test_only_the_part_that_is_asked_for_counts() -> None:
     path = parabola(5.0, 1e-3, 0.3)
-    assert not has_hairpin(path, 0.2, 0.9)
-    assert has_hairpin(path, 0.2, 1.1)
-    assert not has_hairpin(path, 0.5, 0.5)
+    assert sharpest_bend(path, 0.2, 0.9) < HAIRPIN_1PM
+    assert sharpest_bend(path, 0.2, 1.1) > HAIRPIN_1PM
+    assert sharpest_bend(path, 0.5, 0.5) < HAIRPIN_1PM

@@ -1,4 +1,4 @@
-"""Where a path turns back on itself within next to nothing, though its tangent never jumps."""
+"""How sharply a part of a path bends; and what turns back, though its tangent never jumps."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ HAIRPIN_1PM = 1e3
 steps doesn't see [1/m]."""
 
 
-def has_hairpin(path: PiecewiseCubic, u: float, end: float) -> bool:
-    """Whether a path turns back on itself within a millimetre somewhere on a part of it.
+def sharpest_bend(path: PiecewiseCubic, u: float, end: float) -> float:
+    """The largest curvature on a part of a path, without its sign [1/m].
 
     Args:
         path: The path.
@@ -25,8 +25,8 @@ def has_hairpin(path: PiecewiseCubic, u: float, end: float) -> bool:
     Example:
         >>> from viaspline.curve.cardinal import CardinalSpline
         >>> back, wide = (CardinalSpline([(0, 0), (10, 0), (4, y)]) for y in (0.01, 4.0))
-        >>> [has_hairpin(path, 0.0, 2.0) for path in (back, wide)]
+        >>> [sharpest_bend(path, 0.0, 2.0) > HAIRPIN_1PM for path in (back, wide)]
         [True, False]
     """
     spans = path.spans[math.floor(u) : math.ceil(end)]
-    return bool(np.abs(curvature_profile(spans)[:, VALUE]).max(initial=0.0) > HAIRPIN_1PM)
+    return float(np.abs(curvature_profile(spans)[:, VALUE]).max(initial=0.0))
