@@ -188,7 +188,7 @@ def test_a_path_is_put_together_from_its_parts_as_it_was_cut() -> None:
             [(1, 2), (0, 0), (0, 1), (1, 0), (1, 1)] if closed
             else [(0, 0), (1, 0), (1, 1), (2, 0)]
         )  # fmt: skip
-        again = parts.joined(parts.cut(whole))
+        again = parts.joined([parts.cut(whole, k) for k in range(len(parts.ends))])
         assert again.spans.tobytes() == whole.spans.tobytes()
         assert again.joints.tolist() == whole.joints.tolist()
         assert again.vias == whole.vias

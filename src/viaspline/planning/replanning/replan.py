@@ -118,14 +118,14 @@ def _rounder(way: WayAhead, wide: Stretch, blocked: NDArray[np.intp], found: Sol
 
     A detour via point of the old path may lie where the new one turns sharply to it, or back.
     """
-    sharp = _sharpest(way, found)
-    if sharp <= _round_enough(way.requirements):
+    sharp, round_enough = _sharpest(way, found), _round_enough(way.requirements)
+    if sharp <= round_enough:
         return found
     try:
         other = best_taken_up(way, wide, blocked, way.joined(wide, rolling))
     except PlanningError:
         return found
-    most = HAIRPIN_1PM if sharp > HAIRPIN_1PM else _round_enough(way.requirements)
+    most = HAIRPIN_1PM if sharp > HAIRPIN_1PM else round_enough
     return other if _sharpest(way, other) <= most else found
 
 

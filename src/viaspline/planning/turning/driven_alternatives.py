@@ -39,9 +39,9 @@ def as_driven(
     if not parts.corners or not StationCorners(problem).may_be_any:
         return _as_driven(problem, comparison, spline_path)
     part, index = parts.place(comparison.leg.index)
-    its = parts.problems[part]
+    its = parts.problem(part)
     leg = replace(comparison.leg, sequence=its.sequence, index=index)
-    found = _as_driven(its, replace(comparison, leg=leg), parts.cut(spline_path)[part])
+    found = _as_driven(its, replace(comparison, leg=leg), parts.cut(spline_path, part))
     return replace(found, leg=comparison.leg)
 
 

@@ -59,7 +59,7 @@ class PartsAtCorners:
     @cached_property
     def problems(self) -> tuple[DrivenProblem, ...]:
         """The problem of each part."""
-        return tuple(self._part(first, last) for first, last in self.ends)
+        return tuple(self.problem(part) for part in range(len(self.ends)))
 
     def place(self, leg: int) -> tuple[int, int]:
         """The part in which a leg lies, and its place in that."""
@@ -68,10 +68,6 @@ class PartsAtCorners:
             if (leg - first) % count < last - first:
                 return part, (leg - first) % count
         raise AssertionError("every leg lies in a part")
-
-    def cut(self, laid: SplinePath) -> tuple[SplinePath, ...]:
-        """The parts of a path that was laid."""
-        return tuple(self._cut(laid, k) for k in range(len(self.ends)))
 
     def joined(self, laid: Sequence[SplinePath]) -> SplinePath:
         """The path whose parts were laid, (k,)."""
@@ -99,7 +95,9 @@ class PartsAtCorners:
             np.array([part.spans[0] for part in after]),
         )
 
-    def _part(self, first: int, last: int) -> DrivenProblem:
+    def problem(self, part: int) -> DrivenProblem:
+        """The problem of one part."""
+        first, last = self.ends[part]
         whole, count = self.whole, len(self.whole.sequence.legs)
         legs = [k % count for k in range(first, last)]
         row = whole.shortest_row
@@ -109,14 +107,15 @@ class PartsAtCorners:
             whole.requirements,
             whole.router,
             tuple(whole.overlooked[k] for k in legs) if whole.overlooked else (),
-            cleared=self._cleared(first, last),
+            cleared=self._cleared(part),
         )
         paths = tuple(row.taut_paths[k] for k in legs)
         vars(found)["shortest_row"] = TautRow(paths, tuple(row.closed[k] for k in legs))
         return found
 
-    def _cleared(self, first: int, last: int) -> ClearedSpline:
+    def _cleared(self, part: int) -> ClearedSpline:
         """The clear spline of a part: its own, where that is clear, else that of the whole."""
+        first, last = self.ends[part]
         cleared, count = self.whole.cleared, len(self.whole.sequence.legs)
         legs = [k % count for k in range(first, last)]
         passed = {k: cleared.passed[leg] for k, leg in enumerate(legs) if leg in cleared.passed}
@@ -127,10 +126,10 @@ class PartsAtCorners:
             off = (asked.crossed(own.leg(k)).any() for k, asked in enumerate(sides))
             if self.whole.is_clear(own.spans) and not any(off):
                 return ClearedSpline(own, sides)
-        return ClearedSpline(self._cut(cleared.spline_path, self.ends.index((first, last))), sides,
-                             passed)  # fmt: skip
+        return ClearedSpline(self.cut(cleared.spline_path, part), sides, passed)
 
-    def _cut(self, laid: SplinePath, part: int) -> SplinePath:
+    def cut(self, laid: SplinePath, part: int) -> SplinePath:
+        """One part of a path that was laid."""
         first, last = self.ends[part]
         count, total = len(self.whole.sequence.legs), len(laid.spans)
         begin = int(laid.joints[first])
