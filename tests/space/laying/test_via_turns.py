@@ -80,7 +80,7 @@ def test_a_leg_has_no_corner_behind_its_turn(seed: int) -> None:
 @given(seed=seeds)
 def test_a_turn_has_the_radius_that_is_told(seed: int) -> None:
     legs = random_route(seed)
-    laid, turns = lay_route(legs), legs.turns()
+    laid, turns = lay_route(legs), legs.turns
     for k in (1, 2):
         if not np.isnan(turns[k, -1]):
             assert np.isclose(np.linalg.norm(bend(laid.spans[laid.joints[k]])), 1 / turns[k, -3])
@@ -97,7 +97,7 @@ def test_in_the_open_a_turn_is_no_later_than_one_before_and_one_after_the_via_po
     vias = length * ways @ turned
     none = np.empty((0, 3))
     legs = led(vias, [none, none])
-    straight = legs.through(1, legs.ways()[1])
+    straight = legs.through(1, legs.ways[1])
     others = [
         duration(lay_route(replace(straight, radii=(np.array([r, r]), np.array([r, r])))))
         for r in (WIDE, 0.3 * WIDE, CLOSE)
@@ -115,7 +115,7 @@ def test_where_there_is_no_room_for_a_turn_that_is_close_there_is_none() -> None
 def test_legs_that_are_tightened_share_the_tighter_turn() -> None:
     legs = led(np.array([[-90.0, 0, 0], [0, 0, 0], [0, 90, 0]]), [np.empty((0, 3))] * 2, 20.0)
     close = replace(legs, radii=(legs.radii[0], np.array([3.0, 20.0])))
-    assert close.turns()[1, -3] < 3.0 < legs.turns()[1, -3]
+    assert close.turns[1, -3] < 3.0 < legs.turns[1, -3]
     laid = lay_route(close)
     before, after = laid.spans[laid.joints[1] - 1], laid.spans[laid.joints[1]]
     assert np.allclose(bend(before[::-1]), bend(after), atol=1e-9)

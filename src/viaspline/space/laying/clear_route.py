@@ -88,8 +88,8 @@ def clear_route(legs: RouteLegs, check: Check, lead_round: LeadRound, radius: fl
 
 def _unchanged(legs: RouteLegs, before: RouteLegs, proven: set[int]) -> set[int]:
     """Those of the proven legs that have the same directions and turns at both ends as before."""
-    after = np.hstack((legs.ways(), legs.turns()))
-    earlier = np.hstack((before.ways(), before.turns()))
+    after = np.hstack((legs.ways, legs.turns))
+    earlier = np.hstack((before.ways, before.turns))
     same = np.all((earlier == after) | (np.isnan(earlier) & np.isnan(after)), axis=1)
     return {leg for leg in proven if same[leg] and same[leg + 1]}
 
@@ -112,7 +112,7 @@ def _tightened(legs: RouteLegs, leg: int, check: Check) -> RouteLegs:
     """A route with one leg as gentle as it can be."""
     inner = legs.inner[leg]
     assert inner is not None  # the spline has no corners to tighten
-    polygon = tightened_leg(legs.polygon(leg, inner, legs.ways(), legs.turns()), leg, check)
+    polygon = tightened_leg(legs.polygon(leg, inner), leg, check)
     radii = (*legs.radii[:leg], polygon.radii, *legs.radii[leg + 1 :])
     return replace(legs, radii=radii)
 

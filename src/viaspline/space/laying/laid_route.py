@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,32 +96,32 @@ class RouteLegs:
             radii=(*self.radii[:leg], radii, *self.radii[leg + 1 :]),
         )
 
+    @cached_property
     def ways(self) -> Floats:
         """Directions at the via points; see ``via_directions``, (n, d)."""
         return via_directions(self.vias, self.inner, self.given)
 
+    @cached_property
     def turns(self) -> Floats:
         """Turns at the via points; see ``via_turns``, (n, 2 d + 3)."""
         return via_turns(self.vias, self.inner, self.given, self.radii, self.close)
 
-    def polygon(self, leg: int, inner: Floats, ways: Floats, turns: Floats) -> LegPolygon:
+    def polygon(self, leg: int, inner: Floats) -> LegPolygon:
         """What a leg is laid through that isn't the spline.
 
         Args:
             leg: Which one.
             inner: Its corners [m], (k, d).
-            ways: At all via points, see ``ways``.
-            turns: Likewise.
         """
         points = np.concatenate((self.vias[leg : leg + 1], inner, self.vias[leg + 1 : leg + 2]))
-        radii, its = self.radii[leg], turns[leg : leg + 2]
+        radii, its = self.radii[leg], self.turns[leg : leg + 2]
         for end, sign, beside in ((0, 1.0, 1), (-1, -1.0, -2)):
-            via, way = leg - end, sign * ways[leg - end]
+            via, way = leg - end, sign * self.ways[leg - end]
             if np.isnan(its[end, -1]) and np.isnan(self.given[via, 0]) and not np.isnan(way[0]):
                 radii = radii.copy()
                 apart = points[beside] - points[end]
                 radii[end] = aside_radius(way, apart, float(radii[end]), self.close)
-        return LegPolygon(points, ways[leg : leg + 2], radii, its)
+        return LegPolygon(points, self.ways[leg : leg + 2], radii, its)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +153,6 @@ def lay_route(legs: RouteLegs) -> LaidRoute:
     >>> bool(np.array_equal(laid.spans[laid.joints[1], 0], vias[1])), laid.detours[1]
     (True, array([], dtype=int64))
     """
-    ways, turns = legs.ways(), legs.turns()
     pieces: list[Floats] = []
     joints, detours = [0], []
     leg = 0
@@ -160,14 +160,14 @@ def lay_route(legs: RouteLegs) -> LaidRoute:
         inner = legs.inner[leg]
         if inner is None:
             end = _end_of_run(legs, leg)
-            run = _run(legs, ways, leg, end)
+            run = _run(legs, leg, end)
             per_leg = len(run) // (end - leg)
             joints += [joints[-1] + per_leg * (k + 1) for k in range(end - leg)]
             detours += [np.empty(0, np.intp)] * (end - leg)
             pieces.append(run)
         else:
             end = leg + 1
-            spans, within = legs.polygon(leg, inner, ways, turns).spans()
+            spans, within = legs.polygon(leg, inner).spans()
             detours.append(joints[-1] + within.astype(np.intp))
             joints.append(joints[-1] + len(spans))
             pieces.append(spans)
@@ -185,15 +185,15 @@ def _end_of_run(legs: RouteLegs, leg: int) -> int:
     return end
 
 
-def _run(legs: RouteLegs, ways: Floats, first: int, last: int) -> Floats:
+def _run(legs: RouteLegs, first: int, last: int) -> Floats:
     """The spans of the spline from one via point to another."""
     shape = legs.shape
     return CardinalSpline(
         legs.vias[first : last + 1],
         shape.tension[first:last],
         knots=shape.knots,
-        start_heading=_direction(ways[first]),
-        end_heading=_direction(ways[last]),
+        start_heading=_direction(legs.ways[first]),
+        end_heading=_direction(legs.ways[last]),
         tangents=shape.tangents,
     ).spans
 

@@ -52,9 +52,7 @@ _CHEAPER = 10  # places among voxels alone for one among solids
 _COARSE = 1.1  # times what a taut way may cost: a way through a lattice that becomes it
 _ROUNDING = 1e-6  # of such a hair: by what answers about cubes may differ from those of a world
 _ABOUT = 1.0  # of the way as the crow flies: what lies so near to its ends is as large as it
-_GREEDY = (
-    2.0  # weight of the estimate for ways that are dearer than is worth while, whichever it is
-)
+_GREEDY = 2.0  # weight of the estimate for ways that are dearer than is worth while
 _WORTH = 1.01  # times the best so far: what a way may cost before it is pulled taut
 
 
