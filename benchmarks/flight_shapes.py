@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from kept_rows import keep, kept
 from strange_flight_curve import Sampled
 from strange_flight_runs import drawn
 from strange_flights import FLIGHT_KINDS
@@ -122,13 +123,11 @@ def main() -> None:
         rows.append(row)
         if row.get("verdict", "good") != "good" or row["cpu_s"] > 5.0:
             print(row, flush=True)
-    if asked.to is not None:
-        asked.to.write_text("\n".join(map(json.dumps, rows)) + "\n", encoding="utf-8")
+    keep(rows, asked.to)
     for line in told(rows):
         print(line)
     if asked.beside is not None:
-        lines = asked.beside.read_text(encoding="utf-8").splitlines()
-        for line in compared(rows, [json.loads(line) for line in lines]):
+        for line in compared(rows, kept(asked.beside)):
             print(line)
 
 

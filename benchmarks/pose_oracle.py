@@ -20,6 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
+from plan_outcome import plan_outcome
 
 import viaspline as vs
 
@@ -140,17 +141,6 @@ def _reaches(case: Case, x: float, y: float, heading: float) -> bool:
     return bool(case.free.covers(shapely.LineString([(x, y), case.goal])))
 
 
-def told(case: Case) -> str:
-    """What ``vs.plan`` comes to: planned, refused or gave up."""
-    try:
-        vs.plan(case.mission)
-    except vs.NoPathError:
-        return "refused"
-    except vs.GaveUpError:
-        return "gave up"
-    return "planned"
-
-
 def main() -> None:
     """Print every refusal that the oracle has a way for, and how many there were of what."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -160,7 +150,7 @@ def main() -> None:
     counts: dict[str, int] = {}
     for seed in range(span.first, span.after):
         case = case_of(seed)
-        result, began = told(case), time.process_time()
+        result, began = plan_outcome(case.mission), time.process_time()
         if result != "planned" and way_found(case):
             result = f"{result}, though there is a way"
             print(f"seed {seed}: {result} ({time.process_time() - began:.1f} s)", flush=True)

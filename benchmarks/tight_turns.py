@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numba
 import numpy as np
 import shapely
+from plan_outcome import plan_outcome
 
 import viaspline as vs
 
@@ -263,17 +264,6 @@ def way_found(case: Case) -> bool:
     return True
 
 
-def told(case: Case) -> str:
-    """What ``vs.plan`` comes to: planned, refused or gave up."""
-    try:
-        vs.plan(case.mission)
-    except vs.NoPathError:
-        return "refused"
-    except vs.GaveUpError:
-        return "gave up"
-    return "planned"
-
-
 def main() -> None:
     """Print every refusal that the oracle has a way for, and how many there were of what."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -288,7 +278,7 @@ def main() -> None:
         if case is None:
             continue
         began = time.process_time()
-        result = told(case)
+        result = plan_outcome(case.mission)
         spent.append(time.process_time() - began)
         if result != "planned" and way_found(case):
             result = f"{result}, though there is a way"

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import argparse
 import copy
-import json
 import math
 import sys
 import time
@@ -27,6 +26,7 @@ from typing import Any, Final
 
 import numpy as np
 from image_of_flight import Data, Placed, in_other_order, reversed_route, with_far_thing
+from kept_rows import keep, kept
 from space_routes import CLEARANCE, key_of, world
 
 KINDS: Final = {"buildings": (50, 0), "mixed": (200, 0), "vias": (50, 2), "slow climb": (50, 0)}
@@ -224,13 +224,11 @@ def main() -> None:
         if most > (1.0 + ALIKE) * best_known(row):
             told_ = ", ".join(f"{k} {v / row['own']:.4f}" for k, v in row["images"].items())
             print(f"{seed} {kind}: {row['own']:.2f}; {told_}", flush=True)
-    if asked.to is not None:
-        asked.to.write_text("\n".join(map(json.dumps, rows)) + "\n", encoding="utf-8")
+    keep(rows, asked.to)
     for line in told(rows):
         print(line)
     if asked.beside is not None:
-        lines = asked.beside.read_text(encoding="utf-8").splitlines()
-        for line in compared(rows, [json.loads(line) for line in lines]):
+        for line in compared(rows, kept(asked.beside)):
             print(line)
 
 
