@@ -311,9 +311,8 @@ def test_no_via_point_that_nobody_needs_makes_a_flight_sooner(beside: tuple[int,
     assert alone.trajectory.duration <= by_hand.trajectory.duration * (1 + 2e-3)
 
 
-@pytest.mark.parametrize("seed", [56, 63, 70])
-def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int) -> None:
-    """With its neighbour another way is better than the one that is the best alone."""
+def through_a_via_point(seed: int) -> tuple[Mission, RouteLayer, RouteLegs]:
+    """A city with a via point, what lays its routes, and its legs before they are led round."""
     data = city(seed)
     data["route"]["via"] = [[90, 70, 20]]  # type: ignore[index]
     mission = Mission.model_validate(data)
@@ -323,8 +322,15 @@ def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int
     free = np.full((3, 3), np.nan)
     close = ROOMY * least_radius(asked)
     legs = RouteLegs.left_to_the_spline(asked.places, free, asked.shape, close)
+    return mission, layer, legs
+
+
+@pytest.mark.parametrize("seed", [56, 63, 70])
+def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int) -> None:
+    """With its neighbour another way is better than the one that is the best alone."""
+    mission, layer, legs = through_a_via_point(seed)
     together, alone = layer.cheapest(legs)
-    cost = cost_of(asked)
+    cost = cost_of(layer.problem)
     assert cost(together.laid) < cost(alone.laid)
     plan = vs.plan(mission)
     assert plan.trajectory.duration == pytest.approx(cost(together.laid))
@@ -335,16 +341,8 @@ def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int
 @pytest.mark.parametrize("seed", [39, 73])
 def test_no_corner_is_left_out_of_a_route_that_makes_it_sooner(seed: int) -> None:
     """Alone, from rest to rest, the leg has that corner: it costs no time there."""
-    data = city(seed)
-    data["route"]["via"] = [[90, 70, 20]]  # type: ignore[index]
-    mission = Mission.model_validate(data)
-    asked = spatial_problem_of(mission)
-    router = LegRouter(asked, mission)
-    layer = RouteLayer(asked, router, LegCheck(asked, router.gates))
-    free = np.full((3, 3), np.nan)
-    close = ROOMY * least_radius(asked)
-    legs = RouteLegs.left_to_the_spline(asked.places, free, asked.shape, close)
-    best, cost = layer.cheapest(legs)[0], cost_of(asked)
+    _, layer, legs = through_a_via_point(seed)
+    best, cost = layer.cheapest(legs)[0], cost_of(layer.problem)
     for leg, way in best.ways.items():
         points = np.concatenate((legs.vias[leg][None], way.inner, legs.vias[leg + 1][None]))
         for fewer in with_fewer(points, layer.radius):
