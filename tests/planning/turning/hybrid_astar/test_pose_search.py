@@ -4,10 +4,20 @@ from functools import cache
 
 import numpy as np
 import pytest
-import shapely
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from shapely import affinity
+from searched_poses import (
+    CAR,
+    DISC,
+    RAMP,
+    RHO,
+    box,
+    find_poses,
+    gap_of,
+    is_sound,
+    open_world,
+    walls,
+)
 
 from viaspline.curve.certificate import certify
 from viaspline.curve.piecewise import PiecewiseCubic
@@ -15,13 +25,10 @@ from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import dubins
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import SpentBudgetError, WorkBudget
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     SEARCH_EFFORTS,
     pose_problems,
 )
-from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
-from viaspline.planning.turning.hybrid_astar.row_layers import SHARE_AFTER_FIRST
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
@@ -29,72 +36,12 @@ from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Pose,
     Reason,
 )
-from viaspline.planning.turning.hybrid_astar.shortcut_search import FIRST_SLICE, ShortcutSearch
 from viaspline.world.world import World
-
-RHO, RAMP = 4.0, 1.0
-DISC = Requirements(radius=0.5, clearance=0.1)
-CAR = Requirements(
-    radius=0.9, clearance=0.1, footprint=((-1.0, -0.9), (3.2, -0.9), (3.2, 0.9), (-1.0, 0.9))
-)
-
-
-@cache
-def open_world():
-    return World([], bounds=(-40, -40, 40, 40))
 
 
 @kernel
 def dubins_length(dx, dy, start, goal, rho):
     return dubins.dubins_length(dx, dy, start, goal, rho)
-
-
-def find_poses(world, requirements, rho, ramp, start, goal, efforts=SEARCH_EFFORTS):
-    """The one chain of a row of two places, or why there is none."""
-    lots = WorkBudget(math.inf)
-    found = find_row(world, requirements, rho, ramp, [start], [goal], lots, efforts)
-    return found if isinstance(found, NotFound) else found[0]
-
-
-def box(x0, y0, x1, y1):
-    return Obstacle(polygon=[(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
-
-
-def is_sound(chain, world, requirements, start, goal, rho=RHO):
-    """Check all that is promised of a chain."""
-    assert isinstance(chain, Chain), chain
-    curve = PiecewiseCubic(chain.spans)
-    assert curve.evaluate(0.0) == pytest.approx((start.x, start.y), abs=1e-12)
-    assert curve.evaluate(curve.domain[1]) == pytest.approx((goal.x, goal.y), abs=1e-12)
-    at = np.linspace(*curve.domain, 4001)
-    heading = curve.heading(at)
-    assert math.remainder(heading[0] - start.heading, math.tau) == pytest.approx(0, abs=1e-8)
-    assert math.remainder(heading[-1] - chain.end.heading, math.tau) == pytest.approx(0, abs=1e-8)
-    if goal.headings:
-        gaps = [abs(math.remainder(heading[-1] - each, math.tau)) for each in goal.headings]
-        assert min(gaps) < 1e-8
-    assert np.abs(curve.curvature(at)).max() * rho < 1.003
-    assert curve.curvature_jumps().max(initial=0.0) * rho < 1e-6
-    assert curve.length == pytest.approx(chain.length, rel=1e-5)
-    if requirements.footprint is None:
-        assert certify(curve, world, requirements.kept, radius=requirements.radius).holds
-    else:
-        assert gap_of(world, requirements, curve.evaluate(at), heading) > requirements.kept - 1e-3
-
-
-def gap_of(world, requirements, places, headings):
-    body = shapely.Polygon(requirements.footprint)
-    walls = shapely.union_all([shapely.Polygon(o.polygon) for o in world.obstacles])
-    swept = [
-        affinity.translate(
-            affinity.rotate(body, h, origin=(0, 0), use_radians=True), *place.tolist()
-        )
-        for place, h in zip(places, headings, strict=True)
-    ]
-    gap = min((walls.distance(one) for one in swept), default=math.inf) if walls else math.inf
-    low, high = np.reshape(world.bounds, (2, 2))
-    corners = shapely.get_coordinates(swept)
-    return min(gap, (corners - low).min(), (high - corners).min())
 
 
 def test_in_the_open_it_is_little_longer_than_the_way_of_dubins():
@@ -121,12 +68,6 @@ def test_of_the_allowed_headings_one_is_taken():
     chain = find_poses(open_world(), DISC, RHO, RAMP, start, goal)
     is_sound(chain, open_world(), DISC, start, goal)
     assert chain.end.heading == 0.1
-
-
-@cache
-def walls():
-    parts = [box(5, -20, 6, 3), box(5, 4.6, 6, 20), box(14, -20, 15, -4), box(14, -2.4, 15, 20)]
-    return World(parts, bounds=(-20, -20, 30, 20))
 
 
 def test_a_disc_gets_through_two_doors():
@@ -178,35 +119,6 @@ def test_a_mirrored_world_has_a_way_of_about_the_same_length():
     one = find_poses(walls(), DISC, RHO, RAMP, Pose(-10, 0, 0), Goal(22, 5, (1.0,)))
     two = find_poses(mirrored, DISC, RHO, RAMP, Pose(-10, 0, 0), Goal(22, -5, (-1.0,)))
     assert one.length == pytest.approx(two.length, rel=0.03)
-
-
-def test_a_row_of_places_joins_with_headings_that_fit():
-    start = Pose(-10, 0, 0)
-    goals = [Goal(5.5, 3.8), Goal(14.5, -3.2), Goal(22, 5, (1.0,))]
-    chains = find_row(walls(), DISC, RHO, RAMP, [start], goals, WorkBudget(9.0))
-    assert not isinstance(chains, NotFound)
-    for chain, goal in zip(chains, goals, strict=True):
-        is_sound(chain, walls(), DISC, start, goal)
-        start = chain.end
-
-
-def test_a_row_says_which_place_cannot_be_come_to():
-    goals = [Goal(0, 5), Goal(5.5, 0), Goal(22, 5)]
-    found = find_row(walls(), DISC, RHO, RAMP, [Pose(-10, 0, 0)], goals, WorkBudget(9.0))
-    assert isinstance(found, NotFound)
-    assert (found.reason, found.goal) == (Reason.GOAL_TAKEN, 1)
-
-
-def test_a_row_says_that_a_place_cannot_be_come_to_from_anywhere():
-    """A dead end is left by its open side, but only come to backwards; all around is open."""
-    pocket = [box(-1.2, -1, 8, -0.8), box(-1.2, 0.8, 8, 1), box(-1.2, -0.8, -1, 0.8)]
-    world = World(pocket)
-    start, goals = Pose(0, 0, 0.0), [Goal(20, 9), Goal(0, 0, (0.0,))]
-    found = find_row(world, DISC, RHO, RAMP, [start], goals, WorkBudget(9.0))
-    assert isinstance(found, NotFound)
-    assert (found.reason, found.goal) == (Reason.GOAL_SHUT_IN, 1)
-    one = find_row(world, DISC, RHO, RAMP, [start], goals[:1], WorkBudget(9.0))
-    assert isinstance(one, tuple)
 
 
 def test_a_car_gets_out_of_a_bay_with_short_moves_and_across_a_field_with_long_ones():
@@ -306,91 +218,6 @@ def test_a_robot_turns_away_from_a_wall_wherever_its_circle_leaves_room(rho, tow
         assert isinstance(found, NotFound)
     else:
         is_sound(found, world, DISC, start, goal, rho)
-
-
-def test_headings_at_a_place_in_a_corner_are_told_from_what_comes_after_it():
-    # by the shortest arrivals there the robot can't leave it again
-    room, needs = World(bounds=(0, 0, 12, 12)), Requirements(radius=0.3, clearance=0.0)
-    start, goals = Pose(5.82, 1.04, -2.49), [Goal(11.06, 11.57), Goal(7.8, 5.05, (1.31,))]
-    chains = find_row(room, needs, 1.0, 1.0, [start], goals, WorkBudget(12.0))
-    for chain, goal in zip(chains, goals, strict=True):
-        is_sound(chain, room, needs, start, goal, 1.0)
-        start = chain.end
-
-
-def test_a_proof_is_none_where_a_little_sharper_turns_come_through():
-    far = DISC.required + RHO - 0.03
-    world = World([box(-60, far, 60, far + 1)], bounds=(-70, -70, 70, 70))
-    found = find_poses(world, DISC, RHO, RHO, Pose(0, 0, math.pi / 2), Goal(20, -12))
-    assert isinstance(found, NotFound)
-    assert found.reason is Reason.CLOSE
-
-
-def row_in_steps(limit, finished):
-    """What a row of places comes to in steps that may spend so much, and how many those were."""
-    start, goals = Pose(-10, 0, 0), [Goal(5.5, 3.8), Goal(14.5, -3.2), Goal(22, 5, (1.0,))]
-    for step in range(1, 500):
-        needs = dataclasses.replace(DISC, budget=WorkBudget(limit, finished=dict(finished)))
-        try:
-            return find_row(walls(), needs, RHO, RAMP, [start], goals, WorkBudget(9.0)), step
-        except SpentBudgetError:
-            assert needs.budget.spent <= limit
-            assert needs.budget.has_gained
-            finished = needs.budget.finished
-    raise AssertionError("it doesn't end")
-
-
-def test_a_search_that_is_stopped_and_taken_up_comes_to_what_it_comes_to_at_once():
-    at_once, one = row_in_steps(math.inf, {})
-    in_steps, several = row_in_steps(0.05, {})
-    assert one == 1
-    assert several > 2
-    for chain, other in zip(at_once, in_steps, strict=True):
-        assert other.length == pytest.approx(chain.length, rel=1e-3)
-
-
-def test_a_step_leaves_what_the_step_before_had_of_a_search_as_it_was():
-    needs = dataclasses.replace(DISC, budget=WorkBudget(0.05))
-    start, goals = Pose(-10, 0, 0), [Goal(5.5, 3.8), Goal(14.5, -3.2), Goal(22, 5, (1.0,))]
-    with pytest.raises(SpentBudgetError):
-        find_row(walls(), needs, RHO, RAMP, [start], goals, WorkBudget(9.0))
-    before = needs.budget.finished
-    rows = [row_in_steps(0.05, before) for _ in range(2)]
-    (first, steps), (second, again) = rows
-    assert steps == again
-    for chain, other in zip(first, second, strict=True):
-        np.testing.assert_array_equal(chain.spans, other.spans)
-
-
-def shortcuts_of(problem, start, goal, segments):
-    rho, ramp = problem.moves.sizes[:2].tolist()
-    begin = np.array([start.x, start.y, start.heading])
-    return ShortcutSearch(problem.search_window.cache, begin, goal, segments, rho, ramp)
-
-
-def test_shortcuts_along_walls_are_looked_for_a_little_at_a_time():
-    start, goal = Pose(-10, 0, 0), Goal(22, 5)
-    places = np.array([(start.x, start.y), (goal.x, goal.y)])
-    problem = next(pose_problems(walls(), DISC, RHO, RAMP, places, SEARCH_EFFORTS[0]))
-    begin, to = np.array([[*dataclasses.astuple(start), 0.0]]), np.array([math.nan])
-    tree = problem.forwards(begin, goal, to, SHARE_AFTER_FIRST)
-    while not tree.is_over:
-        tree.go_on()
-    arrival, end = tree.arrivals()[0], np.array([goal.x, goal.y, math.nan])
-    at_once = shortcuts_of(problem, start, end, arrival.segments)
-    at_once.effort = 1 << 40
-    while not at_once.is_over:
-        at_once.go_on()
-    search, steps = shortcuts_of(problem, start, end, arrival.segments), 0
-    while not search.is_over:
-        before, search, steps = search, search.copy(), steps + 1
-        search.effort = FIRST_SLICE
-        search.go_on()
-        looked_up = search._cache.reckoned - before._cache.reckoned
-        assert looked_up[0] + looked_up[1] // 5 < FIRST_SLICE + 2000  # with those of a last pair
-    assert steps > 10
-    assert search.length == at_once.length < arrival.cost
-    np.testing.assert_array_equal(search.segments, at_once.segments)
 
 
 def body_problem(requirements):

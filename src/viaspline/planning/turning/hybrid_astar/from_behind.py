@@ -4,7 +4,7 @@ Forwards, the shortest arrivals at a place are followed on, and none of them may
 place if that lies beside a wall. Backwards from the end the few headings that do are found, and how
 little can be reached from a place that nothing leads on from is seen as soon.
 
-Tested through ``planning/turning/hybrid_astar/test_pose_search``.
+Tested through ``planning/turning/hybrid_astar/test_pose_sequence``.
 """
 
 from __future__ import annotations

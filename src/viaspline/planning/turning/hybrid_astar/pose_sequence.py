@@ -1,8 +1,4 @@
-"""Ways through a row of places: as they are asked for, or led by narrow places between them.
-
-Tested through ``planning/turning/hybrid_astar/test_pose_search`` and
-``planning/turning/hybrid_astar/test_narrow_places``.
-"""
+"""Ways through a row of places: as they are asked for, or led by narrow places between them."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Ways leg by leg through a row: the best heading at one place may bar the way to the next.
 
-Tested through ``planning/turning/hybrid_astar/test_pose_search``.
+Tested through ``planning/turning/hybrid_astar/test_pose_sequence``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""The shortcuts of a chain that was found, as they are looked for: stopped, and gone on with.
-
-Tested through ``planning/turning/hybrid_astar/test_pose_search``.
-"""
+"""The shortcuts of a chain that was found, as they are looked for: stopped, and gone on with."""
 
 from __future__ import annotations
 
