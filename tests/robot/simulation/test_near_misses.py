@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.mission.model import Mission
@@ -23,6 +23,8 @@ from viaspline.trajectory.limits import REACTION_S
 from viaspline.world.world import World
 
 RADIUS, CLEARANCE, BRAKE, STEP, LENGTH = 0.3, 0.2, 1.0, 0.05, 12.0
+GRAZED_M = 0.1
+"""What is driven until one of the beams that graze a surface hits it near the place sought [m]."""
 Disc = tuple[float, float, float]
 
 discs = st.lists(
@@ -81,6 +83,7 @@ def in_view(
     wide=st.floats(20.0, 350.0),
     speed=st.floats(0.3, 2.0),
 )
+@example(things=[(4.0, 0.4375, 0.25)], far=4.0, wide=247.0, speed=0.5)  # grazed, at 3 degrees
 def test_what_a_lidar_could_have_shown_is_what_lay_open_to_it(
     things: list[Disc], far: float, wide: float, speed: float
 ) -> None:
@@ -125,7 +128,8 @@ def check(
         assert found.shown >= min(views[0.05]) - 0.02
     if views[-0.02]:
         assert found.shown is not None
-        assert found.shown <= min(views[-0.02]) + 5.0 * STEP  # beams that graze it are apart
+        apart = 5.0 * STEP + GRAZED_M / speed
+        assert found.shown <= min(views[-0.02]) + apart
     both = found.shown is not None and found.needed_by is not None
     assert found.seen_in_time == (both and found.shown <= found.needed_by)  # type: ignore[operator]
 
