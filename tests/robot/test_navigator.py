@@ -173,14 +173,39 @@ def test_a_robot_that_lags_gets_a_new_time_law_from_where_it_is(mission_of: Make
 
 
 @pytest.mark.parametrize("period", [0.1, 0.5, 1.0])
-def test_it_sets_off_however_long_its_steps_are(mission_of: Make, period: float) -> None:
+def test_it_is_as_fast_as_planned_however_long_its_steps_are(
+    mission_of: Make, period: float
+) -> None:
     nav, x, speed = Navigator(mission_of([0, 0], [20, 0]), period=period), 0.0, 0.0
-    for tick in range(round(60.0 / period)):
+    for tick in range(math.ceil(nav.trajectory.duration / period) + 1):
         command, nav = nav.step(RobotState((x, 0.0), 0.0, speed), [], tick * period)
         speed = command.velocity[0]
         x += period * speed
     assert nav.reached
-    assert x == pytest.approx(20.0, abs=0.25)
+    assert x == pytest.approx(20.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("period", [0.05, 0.2, 0.5])
+def test_a_twist_that_is_held_from_step_to_step_keeps_it_on_its_path(
+    mission_of: Make, period: float
+) -> None:
+    mission = mission_of([0, 0], [20, 0], [20, 20], [0, 20])
+    nav = Navigator(mission, period=period)
+    path, end = nav.path, nav.trajectory.duration
+    x, y, heading, speed, time, off = 0.0, 0.0, float(path.heading(0.0)), 0.0, 0.0, 0.0
+    while not nav.finished and time < 2.0 * end:
+        command, nav = nav.step(RobotState((x, y), heading, speed), [], time)
+        speed, rate = command.velocity[0], command.yaw_rate
+        for _ in range(50):  # arcs, by their chords
+            heading += 0.5 * rate * period / 50
+            x += speed * math.cos(heading) * period / 50
+            y += speed * math.sin(heading) * period / 50
+            heading += 0.5 * rate * period / 50
+        time += period
+        off = max(off, path.project((x, y)).distance)
+    assert nav.reached
+    assert off < 0.05 * period / 0.05
+    assert time < end + 2.0 + 2.0 * period
 
 
 def test_progress_on_a_route_that_crosses_itself_is_not_mistaken(mission_of: Make) -> None:

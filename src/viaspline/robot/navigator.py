@@ -152,8 +152,8 @@ class Navigator:
         if mission.robot.footprint is not None and mission.robot.sensor is not None:
             prepare_body(requirements)
         self._plan = plan
-        self._task = DriveTask(mission, requirements, limits, reaction, model)
-        self._state = at_start(self._task, plan, period)
+        self._task = DriveTask(mission, requirements, limits, reaction, model, period=period)
+        self._state = at_start(self._task, plan)
 
     def __repr__(self) -> str:
         state = "finished" if self.finished else f"at {self.distance:.1f} m"

@@ -134,7 +134,7 @@ def _stood(
         schedule = held_still(task, progress, schedule)
     watch, events = told_of_clock(before.watch, schedule.place(progress.distance), time)
     log = Log().with_events(*events)
-    command = stop_command(task, command_for(task.mission.robot, progress, schedule, measured))
+    command = stop_command(task, command_for(task, progress, schedule, measured))
     return StepTaken(
         command, task, replace(before, schedule=schedule, log=log, work=0.0, watch=watch)
     )
@@ -272,7 +272,7 @@ def _commanded(now: _StepSoFar) -> StepTaken:
         controller = controller.moved(before.schedule.driven - schedule.driven)
     progress, waiting = with_command(controller, progress, schedule, measured, now.time, now.work)
     schedule = waiting if stale is None else schedule
-    command = command_for(task.mission.robot, progress, schedule, measured)
+    command = command_for(task, progress, schedule, measured)
     if schedule.giving_up is not None and progress.finished:
         command = stop_command(task, command)
     watch = replace(now.watch, held=stale).having_given(

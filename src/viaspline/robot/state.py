@@ -54,8 +54,8 @@ class Command(ComparedByValue):
     Attributes:
         speed: Over the ground, now [m/s].
         acceleration: By which that speed changes from now on [m/s²].
-        curvature: Of the arc to drive, left is positive [1/m]; it leads back to the path if the
-            measured state is off it.
+        curvature: Of the arc to drive until the next step, left is positive [1/m]; it leads back
+            to the path if the measured state is off it.
         yaw_rate: Of the body [rad/s]. Where the robot stands and looks another way than it is to
             go, it turns on the spot first; without a drive as fast as ``max_yaw_rate_degps``
             allows, or 1 rad/s if that isn't said, and it sets off when it has turned.
@@ -65,7 +65,8 @@ class Command(ComparedByValue):
         stopped: Whether the robot is to stand: it dwells, turns on the spot to ``heading``, or
             its drive is over.
         finished: Whether its drive is over, at the goal or not.
-        velocity: Forward and to the left, in the frame of the body [m/s].
+        velocity: Forward and to the left, in the frame of the body [m/s]. Without a drive it is
+            what brings the robot to where it should be at the next step, if it is held until then.
         actuators: What the actuators of its drive are to be given, by names with their units, such
             as ``steer_rad`` or ``left_wheel_mps``; nothing of a robot that has none to name.
     """

@@ -31,13 +31,12 @@ from viaspline.trajectory.limits import REACTION_S
 from viaspline.world.moving_obstacles import MovingObstacles
 
 
-def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
+def at_start(task: DriveTask, plan: Plan) -> NavigationState:
     """A robot that stands at the start, with its plan.
 
     Args:
         task: What is asked of the drive.
         plan: Its plan.
-        period: Usual time between two steps [s].
     """
     robot, world = task.mission.robot, plan.world
     has_lidar = robot.sensor is not None and robot.sensor.lidar is not None
@@ -45,8 +44,8 @@ def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     path, laps = first_round(task, plan.path)
     controller = None
     if task.model is not None:
-        pose_filter = PoseFilter.of(robot, period)
-        controller = Controller.of(task.model, period, path, plan.trajectory, pose_filter)
+        pose_filter = PoseFilter.of(robot, task.period)
+        controller = Controller.of(task.model, task.period, path, plan.trajectory, pose_filter)
     looks_ahead = task.model is None and math.isfinite(task.spot_turning.rate)
     facing = heading_onward(path, 0.0) if looks_ahead else None
     progress = Progress(time=0.0, controller=controller, facing=facing)

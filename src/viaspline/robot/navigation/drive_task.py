@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.mission.model import Mission
-from viaspline.mission.spot_turning import SpotTurning
+from viaspline.mission.spot_turning import PERIOD_S, SpotTurning
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.perception.belief import MIN_SURFACE_DISTANCE_M
 from viaspline.trajectory.limits import Limits
@@ -26,6 +26,7 @@ class DriveTask:
         reaction: Longest time between two steps [s].
         model: The drive; None if the robot follows its path exactly.
         apart: What it keeps to what moves beyond what is required [m].
+        period: Usual time between two steps [s].
     """
 
     mission: Mission
@@ -34,6 +35,7 @@ class DriveTask:
     reaction: float
     model: DriveModel | None = None
     apart: float = 0.0
+    period: float = PERIOD_S
 
     @property
     def kept_to_moving(self) -> float:

@@ -21,9 +21,6 @@ ON_PATH_M = 1e-6
 MAX_ALONG_TRACK_M = 0.05
 """Farther than this along the path from where it should be, a robot gets a new trajectory [m]."""
 
-MAX_SET_OFF_M = 0.5
-"""So much farther at most where it sets off from a rest [m]."""
-
 MAX_AHEAD_M = 0.005
 """So does one with a drive that is farther ahead than this [m]: else it would stop beyond the place
 up to which it is certain to be free, and a little farther beyond with every stop. Where it is
@@ -55,23 +52,10 @@ def track(
     low = progress.distance
     high = min(should + max(1.0, 2.0 * gap), schedule.trajectory.next_rest(max(should, low)))
     distance, aside = project(schedule.path, measured.position, low, max(high, low))
-    allowed = MAX_ALONG_TRACK_M
-    if abs(measured.speed) <= STANDSTILL_MPS:
-        allowed += _set_off(schedule, progress.time, should)
-    if -allowed <= distance - should <= MAX_ALONG_TRACK_M or schedule.giving_up is not None:
+    if abs(distance - should) <= MAX_ALONG_TRACK_M or schedule.giving_up is not None:
         return replace(on_time, cross_track=aside), schedule
     adrift = replace(on_time, distance=distance, cross_track=aside, along_track=distance - should)
     return adrift, schedule
-
-
-def _set_off(schedule: Schedule, last: float, should: float) -> float:
-    """How far a trajectory has set off from a rest since the last step [m].
-
-    The robot was told to stand then. With a new trajectory, which sets off from where it stands, it
-    would be told so again, and with long steps for ever.
-    """
-    before, speed, _ = (float(x) for x in schedule.trajectory.state_at(last))
-    return min(should - before, MAX_SET_OFF_M) if speed == 0.0 else 0.0
 
 
 def _controlled(
