@@ -5,6 +5,7 @@ The measured cases: robots in other people's simulators that were off without a 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
+from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.watching import renewed_allowance
@@ -156,3 +158,31 @@ def test_a_robot_with_a_lidar_keeps_more_too(
     assert done.nav.allowance > nav.allowance
     assert done.gap(discs, 0.3) > 0.0
     assert done.nav.reached, done.nav.reason
+
+
+def test_what_is_seen_beside_an_obstacle_is_driven_round_by_a_robot_that_keeps_more_by_then() -> (
+    None
+):
+    """It stood for good: beside the disc its path keeps less than it is to keep from now on."""
+    mission = Mission.model_validate({
+        "world": {"known": [{"name": "post", "circle": {"center": [10, -0.2], "radius": 1}}]},
+        "robot": {"radius_m": 0.3, "clearance_m": 0.2, "max_speed_mps": 1.0,
+                  "sensor": {"range_m": 4}},
+        "route": {"start": [0, 0], "goal": [40, 0]},
+    })  # fmt: skip
+    nav, time = Navigator(mission, warm=False), 0.0
+    while nav.reference(time).position[0] < 9.9:
+        _, nav = nav.step(nav.reference(time), [], time)
+        time += 0.1
+    state = nav.reference(time)
+    beside = (state.position[0], state.position[1] + 0.015)
+    _, nav = nav.step(replace(state, position=beside), [], time)
+    assert nav.allowance > 0.015
+    rock = Obstacle(circle={"center": (14.2, 0.3), "radius": 0.5}, name="rock")
+    time += 0.1
+    _, nav = nav.step(nav.reference(time), [rock], time)
+    assert [replanned.obstacles for replanned in nav.replans] == [("rock",)]
+    ahead = nav.path.at_distance(np.arange(nav.distance + 2.0, nav.path.length, 0.01))
+    for center, radius in (((10, -0.2), 1.0), ((14.2, 0.3), 0.5)):
+        away = np.hypot(*(ahead - center).T) - radius
+        assert away.min() >= 0.3 + 0.2 + nav.allowance - 1e-6

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +21,11 @@ from viaspline.robot.navigation.schedule import ReducedClearance
 from viaspline.robot.perception.body_room import room_along
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
+from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.world.world import World
+
+TOO_NARROW = "sees no way on that is wide enough"
+"""Why a robot that has come too close does not go on."""
 
 ESCAPE_DIRECTIONS = 48
 """Directions that are tried,"""
@@ -79,6 +83,47 @@ def way_out(
     return timed(
         with_less_until(context, at, floor), "from_rest", replace(found, changed_from=stop), (at,)
     )
+
+
+def room_to_stop(context: ReplanContext, spacing: float) -> float:
+    """Smallest distance to anything up to where the robot can stop [m].
+
+    Args:
+        context: The robot under way.
+        spacing: From each place at which that is looked at to the next [m].
+    """
+    here = context.progress.distance
+    along = np.linspace(here, context.stop, 2 + int((context.stop - here) / spacing))
+    world, path = context.knowledge.world, context.schedule.path
+    return float(np.min(room_along(world, path, along, context.requirements)))
+
+
+def way_on_from_close(
+    context: ReplanContext, floor: float, spacing: float, kept: Sequence[Requirements]
+) -> ReplanResult:
+    """A way on for a robot that has come too close, by which it comes no closer.
+
+    Args:
+        context: The robot under way.
+        floor: What it keeps as far as it must [m].
+        spacing: From each place at which that is looked at to the next [m].
+        kept: What it keeps as soon as there is room: the first that leads on.
+    """
+    close = replace(
+        context,
+        schedule=replace(context.schedule, reduced=ReducedClearance(math.inf, floor)),
+        requirements=context.task.requirements.reduced_to(floor),
+        floor=floor,
+    )
+    found = search(close)
+    if found.candidate is None:
+        return found
+    skip = frozenset(found.skip)
+    for requirements in kept:
+        candidate = restore_clearance(close, found.candidate, requirements, floor, spacing, skip)
+        if candidate is not None:
+            return replace(found, candidate=candidate)
+    return ReplanResult(None, TOO_NARROW)
 
 
 def restore_clearance(

@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
-
 from viaspline.errors import PlanningError
 from viaspline.planning.checking.conflicts import too_close
 from viaspline.planning.problem.requirements import Requirements
@@ -19,8 +17,7 @@ from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.pending_search import FIRST_STAGE
-from viaspline.robot.navigation.schedule import ReducedClearance, Schedule, Wait
-from viaspline.robot.perception.body_room import room_along
+from viaspline.robot.navigation.schedule import Schedule, Wait
 from viaspline.robot.replanning.better_path import better_path, with_spare
 from viaspline.robot.replanning.deadline import (
     RETRY_INTERVAL_S,
@@ -29,7 +26,7 @@ from viaspline.robot.replanning.deadline import (
     last_place,
     with_time_to_search,
 )
-from viaspline.robot.replanning.recovery import restore_clearance, way_out
+from viaspline.robot.replanning.recovery import room_to_stop, way_on_from_close, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.robot.replanning.retreat import retreat
@@ -52,9 +49,6 @@ MAX_STAND_S = 5.0
 LONG_WORK_S = 4.0
 """A robot that stands and looks for a way on tries the way back whenever it has spent so much more
 [s of the reference machine]."""
-
-TOO_NARROW = "sees no way on that is wide enough"
-"""Why a robot that has come too close does not go on."""
 
 MAX_INTO_DISC_RATIO = 0.5
 """So far the body may get into the discs on surfaces on its way out, of their radius."""
@@ -181,7 +175,7 @@ def _way_round(context: ReplanContext) -> ReplanResult:
             back = ReplanResult(None)
         if back.candidate is not None:
             return back
-    room = _room(context, belief.cell_size)
+    room = room_to_stop(context, belief.cell_size)
     if room >= requirements.required:
         found = _way_on(context, with_spare(requirements))
     else:
@@ -251,29 +245,7 @@ def _way_out(context: ReplanContext, room: float, spared: Requirements) -> Repla
         out = way_out(context, spared, floor) or way_out(context, requirements, floor)
         if out is not None:
             return ReplanResult(out)
-    close = replace(
-        context,
-        schedule=replace(context.schedule, reduced=ReducedClearance(math.inf, floor)),
-        requirements=requirements.reduced_to(floor),
-        floor=floor,
-    )
-    found = search(close)
-    if found.candidate is None:
-        return found
-    skip = frozenset(found.skip)
-    for kept in (spared, requirements):
-        candidate = restore_clearance(close, found.candidate, kept, floor, cell_size, skip)
-        if candidate is not None:
-            return replace(found, candidate=candidate)
-    return ReplanResult(None, TOO_NARROW)
-
-
-def _room(context: ReplanContext, spacing: float) -> float:
-    """Smallest distance to anything up to where the robot can stop [m]."""
-    here = context.progress.distance
-    along = np.linspace(here, context.stop, 2 + int((context.stop - here) / spacing))
-    world, path = context.obstruction.world, context.schedule.path
-    return float(np.min(room_along(world, path, along, context.requirements)))
+    return way_on_from_close(context, floor, cell_size, (spared, requirements))
 
 
 def _plain(refusal: PlanningError | str) -> str:

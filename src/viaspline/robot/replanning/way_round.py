@@ -9,9 +9,16 @@ from dataclasses import replace
 
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.replanning.deadline import SPENT_AT_REST, with_time_to_search
+from viaspline.robot.replanning.recovery import room_to_stop, way_on_from_close
 from viaspline.robot.replanning.replan_context import ReplanContext
-from viaspline.robot.replanning.replan_search import search
+from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.robot.replanning.transitions import keep_searching, stop_for_good, take_over
+
+SPACING_RATIO = 0.25
+"""From place to place at which the room is looked at, of what is required."""
+
+SLACK_M = 1e-3
+"""By which there may be less room than these places show [m]."""
 
 
 def way_round(blocked: ReplanContext) -> Decision:
@@ -32,9 +39,24 @@ def way_on(context: ReplanContext) -> Decision | str:
     Args:
         context: The robot, with what is in its way and what it may spend on its search.
     """
-    result = search(context)
+    result = _found(context)
     if result.candidate is not None:
         return take_over(context, result.candidate, result.skip)
     if result.begin_with is None:
         return str(result.refusal)
     return keep_searching(context, result) or SPENT_AT_REST
+
+
+def _found(context: ReplanContext) -> ReplanResult:
+    """What a search comes to: of a robot with less room than it is to keep, one out of there first.
+
+    So it is where more is kept from now on for what it gets beside its path than was when that was
+    laid.
+    """
+    requirements = context.requirements
+    spacing = SPACING_RATIO * requirements.required
+    floor = room_to_stop(context, spacing) - SLACK_M
+    might_touch = floor < requirements.radius + requirements.tracking_error
+    if might_touch or floor >= requirements.required - 2.0 * SLACK_M:
+        return search(context)
+    return way_on_from_close(context, floor, spacing, (requirements,))

@@ -27,19 +27,12 @@ from viaspline.robot.replanning.deadline import with_time_to_search
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.transitions import stop_for_good, take_over
-from viaspline.robot.replanning.way_round import way_on
+from viaspline.robot.replanning.way_round import SLACK_M, SPACING_RATIO, way_on
 from viaspline.robot.run import Event
 from viaspline.robot.watching.path_deviation import Deviation
 
 LAY_WORK_S = (0.03, 0.12)
 """What may be spent on a new path: first, and then [s of the reference machine]."""
-
-SPACING_RATIO = 0.25
-"""From place to place at which the room is looked at, of what is required."""
-
-FLOOR_SLACK_M = 1e-3
-"""By which the path may keep less than its samples show [m]."""
-
 
 LAID_ANEW = "the path ahead is laid anew with that"
 
@@ -180,7 +173,7 @@ def _candidate(context: ReplanContext) -> tuple[PathCandidate | None, float]:
             continue
         at = float(places[roomy[0]])
         before = np.linspace(here, at, 2 + int((at - here) / spacing))
-        floor = float(np.min(room_along(world, path, before, requirements))) - FLOOR_SLACK_M
+        floor = float(np.min(room_along(world, path, before, requirements))) - SLACK_M
         if floor < requirements.radius + requirements.tracking_error:
             return None, context.work  # it might touch something on the way there
         less = context
