@@ -96,14 +96,7 @@ def first_candidate(
             continue  # what would stay leads to them
         before = context.work
         try:
-            solution = context.requirements.once(
-                ("laid", stage[0], leave, world, context.schedule.path, frozenset(skip)),
-                partial(_laid, context, stage[0], leave, world, skip),
-            )
-            candidate = timed(context, mode, solution)
-            if candidate is None and stage == LAST_STAGE:
-                candidate = _with_steering_left(context, world, skip)
-                candidate = candidate or _awaited(context, solution)
+            solution, candidate = _at_stage(context, world, skip, stage, mode, leave)
         except UnfinishedSearchError:
             raise
         except SpentBudgetError as error:
@@ -117,17 +110,49 @@ def first_candidate(
             if stage == LAST_STAGE:
                 raise
             continue  # a robot that leaves later, or that stands, may find a way
-        if mode == "from_rest":
-            if candidate is not None and (stage == LAST_STAGE or worth(candidate)):
-                return candidate
-            if stage == LAST_STAGE:
+        if stage == LAST_STAGE:
+            if candidate is None:
                 raise _not_followed(context)
-            continue
-        if solution.rejoins_at is None and solution.changed_from <= leave + SAME_PLACE_M:
+            return candidate
+        rests = mode == "from_rest"
+        if (
+            not rests
+            and solution.rejoins_at is None
+            and solution.changed_from <= leave + SAME_PLACE_M
+        ):
             laid_anew.add(leave)
-        if candidate is not None and not _turns_back(context, solution) and worth(candidate):
+        leads_on = candidate is not None and (rests or not _turns_back(context, solution))
+        if candidate is not None and leads_on and worth(candidate):
             return candidate
     raise AssertionError("the last stage of a search finds something or says why there is nothing")
+
+
+def _at_stage(
+    context: ReplanContext,
+    world: World,
+    skip: Collection[int],
+    stage: Stage,
+    mode: Mode,
+    leave: float,
+) -> tuple[Solution, PathCandidate | None]:
+    """The path of one stage, and how it is driven; None where it can't be.
+
+    Args:
+        context: The robot under way.
+        world: What the path keeps clear of.
+        skip: Points of the route that are left out.
+        stage: At the last one nothing is left but to drive it as well as may be.
+        mode: How the path is left.
+        leave: Where [m].
+    """
+    solution = context.requirements.once(
+        ("laid", stage[0], leave, world, context.schedule.path, frozenset(skip)),
+        partial(_laid, context, stage[0], leave, world, skip),
+    )
+    candidate = timed(context, mode, solution)
+    if candidate is None and stage == LAST_STAGE:
+        candidate = _with_steering_left(context, world, skip) or _awaited(context, solution)
+    return solution, candidate
 
 
 def _with_steering_left(
