@@ -189,3 +189,17 @@ def test_tight_resting_places_are_kept_from_as_far_as_via_points_allow(
     assert not found.passed
     assert least_distance(found, "a", (0, side)) >= APART - 1e-6
     assert least_distance(found, "b", (0, 0)) >= APART - 1e-6
+
+
+@pytest.mark.parametrize("spare", [0.06, 0.1009, 0.15])
+def test_bodies_that_are_parked_in_a_row_get_past_each_other(spare: float) -> None:
+    body = {"footprint": [[-0.1, -0.3], [0.6, -0.3], [0.6, 0.3], [-0.1, 0.3]]}
+    apart = 2.0 * math.hypot(0.6, 0.3) + 1.0
+    row = [(-k * (apart + spare), 0.0) for k in range(4)]
+    found = laid(
+        *(robot(f"r{k}", (x, 0.0), (20.0 - x, 40.0), robot=body) for k, (x, _) in enumerate(row))
+    )
+    assert not found.passed
+    for k in range(4):
+        for place in row[:k] + row[k + 1 :]:
+            assert least_distance(found, f"r{k}", place) >= apart - 1e-6

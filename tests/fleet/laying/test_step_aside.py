@@ -85,6 +85,20 @@ def test_it_swings_through_a_via_point_that_is_near() -> None:
     assert abs(float(found.path.heading(via.u))) > 0.2
 
 
+def test_a_body_that_follows_any_bend_steps_aside_and_is_proven_where_it_does() -> None:
+    body = ROBOT | {"footprint": [[-0.2, -0.4], [1.2, -0.4], [1.2, 0.4], [-0.2, 0.4]]}
+    del body["radius_m"]
+    for wall, is_clear in (([40.0, 3.2], True), ([40.0, 2.22], False)):
+        world = {"known": [{"circle": {"center": wall, "radius": 0.5}}]}
+        straight = plan(mission((0, 0), (80, 0), robot=body, world=world))
+        found = stepped_aside(straight, np.array([(40.0, -1.2, 2.0)])).plan
+        assert (found is not None) == is_clear
+        if found is not None:
+            line = found.path.evaluate(np.linspace(*found.path.domain, 4000))
+            assert np.hypot(*(line - (40.0, -1.2)).T).min() >= 2.0 - 2e-4
+            assert found.certificate.holds
+
+
 def test_it_says_for_which_disc_there_is_no_room() -> None:
     walls = [{"polygon": [[0, y], [80, y], [80, y + 1], [0, y + 1]]} for y in (2.0, -3.0)]
     corridor = plan(mission((0, 0), (80, 0), world={"known": walls}))

@@ -84,7 +84,7 @@ def lay_among_rests(
     stuck = rests.stranded - own
     if stuck & past:
         raise stranded_at_point(mission, reach, rests.places[min(stuck & past)])
-    eased = _eased(rests, points, reach, past | own)
+    eased = _eased(rests, points, reach, past | own, KEPT_MORE_M)
     round_them: set[int] = set()
     plan = alone
     for _ in range(MAX_ROUNDS):
@@ -93,6 +93,10 @@ def lay_among_rests(
         if not met.size:
             break
         aside, seen, others = _aside(plan, reach, eased, out)
+        if aside is None:
+            rather = _eased(rests, points, reach, out, 2.0 * KEPT_MORE_M)
+            if rather.places != eased.places:
+                aside, _, _ = _aside(plan, reach, rather, out)
         if aside is not None:
             plan = aside
             break
@@ -131,10 +135,19 @@ def _more_in_the_way(
 
 
 def _eased(
-    rests: RestingPlaces, points: Floats, reach: float, out: frozenset[int]
+    rests: RestingPlaces, points: Floats, reach: float, out: frozenset[int], spare_m: float
 ) -> RestingPlaces:
-    """Resting places of which less is kept where one of a robot's points doesn't allow for more."""
-    tight = rests.at(points, reach + KEPT_MORE_M) - out
+    """Resting places of which less is kept where one of a robot's points hardly allows for more.
+
+    Args:
+        rests: Of all robots.
+        points: Where the robot has to get to [m], (k, 2).
+        reach: How far it keeps others away on its part [m].
+        out: Indices of those that don't count.
+        spare_m: Where a point is by less than this farther away than it must be [m], half of that
+            is kept, if it isn't more than elsewhere.
+    """
+    tight = rests.at(points, reach + spare_m) - out
     if not tight:
         return rests
     places = list(rests.places)

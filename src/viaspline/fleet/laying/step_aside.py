@@ -50,7 +50,7 @@ def can_step_aside(plan: Plan) -> bool:
     """
     requirements = Requirements.of(plan.mission, plan.tracking_error)
     return (
-        requirements.is_free_disc
+        requirements.turn_radius is None
         and plan.path.dimension == 2
         and plan.timed is None
         and not plan.world.sided.size

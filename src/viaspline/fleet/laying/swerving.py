@@ -26,13 +26,14 @@ SHARP = 2.0
 def may_swerve(plan: Plan) -> bool:
     """Whether a path may be led aside just because others would wait less.
 
-    Not if the mission says how it is to run: in a corridor, on lines between via points, on sides
-    of obstacles, or as a spline of a certain kind.
+    Not that of a footprint, nor if the mission says how it is to run: in a corridor, on lines
+    between via points, on sides of obstacles, or as a spline of a certain kind.
     """
     route, spline = plan.mission.route, plan.mission.spline
     requirements = Requirements.of(plan.mission, plan.tracking_error)
     return (
         can_step_aside(plan)
+        and requirements.is_free_disc
         and route.corridor is None
         and route.detours != "local"
         and spline.tangents is None
