@@ -7,7 +7,7 @@ import pytest
 from stepped_fleets import APART_M, ASIDE, CROSS, member, start
 
 from viaspline.errors import GaveUpError
-from viaspline.fleet.execution import fleet_under_way
+from viaspline.fleet.execution import fleet_under_way, ways_from_rest
 from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
 
 
@@ -109,6 +109,21 @@ def test_who_has_no_way_round_a_dead_robot_stays_and_is_named(
     drive.place["r0"] = 0.0
     drive.until(120.0, dead=("r0",))
     assert drive.nav.reached
+
+
+def test_who_has_to_get_to_where_a_dead_robot_may_be_is_told_so_before_it_is_laid(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    through = {"start": [20, -20], "via": [[20, 0]], "goal": [20, 20], "depart_s": 1}
+    drive = start({"start": [0, 0], "goal": [40, 0]}, through)
+    drive.until(2.0)
+    drive.take(drive.nav.dead("r0"))
+    drive.until(60.0, dead=("r0",))
+    assert drive.nav.blocked == {"r1": "r0"}
+    monkeypatch.delattr(ways_from_rest, "lay_among_rests")
+    event = drive.nav.replanned().events[-1]
+    assert (event.kind, event.name) == ("has no way", "r1")
+    assert "round 'r0'" in event.message
 
 
 def test_robots_in_each_others_way_dont_take_turns_for_ever(

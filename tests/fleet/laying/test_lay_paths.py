@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from viaspline.fleet.laying.lay_among_rests import MOST_MET
 from viaspline.fleet.laying.lay_paths import LaidPaths, lay_paths
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.model import Mission
@@ -203,3 +204,11 @@ def test_bodies_that_are_parked_in_a_row_get_past_each_other(spare: float) -> No
     for k in range(4):
         for place in row[:k] + row[k + 1 :]:
             assert least_distance(found, f"r{k}", place) >= apart - 1e-6
+
+
+def test_a_path_that_passes_very_many_in_a_row_is_laid_past_them_all() -> None:
+    row = [(5.0 + 3.0 * k, 0.5) for k in range(MOST_MET + 2)]
+    parked = [robot(f"p{k}", (x, y), (x, -30.0), rest="leave") for k, (x, y) in enumerate(row)]
+    found = laid(robot("a", (0, 0), (row[-1][0] + 5.0, 0)), *parked)
+    assert "a" not in found.passed
+    assert min(least_distance(found, "a", place) for place in row) >= APART - 1e-6

@@ -9,7 +9,7 @@ Tested through ``fleet/execution/test_replanned_fleets``.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -228,17 +228,23 @@ def laid_from_rest(
     alone = driven_plan(mission, world)
     reach = mission.robot.outer_radius + alone.tracking_error + 0.5 * separation
     among = _with_room_at(rests, mission.route.start.at[:2], reach, out)
+    points = np.array([via.at[:2] for _, via in mission.route.points()])
+    _check_not_past(member.name, (among.places[k] for k in sorted(among.at(points, reach))), out)
     laid = lay_among_rests(alone, mission, member.name, reach, among)
-    for rest in laid.passed:
+    _check_not_past(member.name, laid.passed, out)
+    return laid.plan
+
+
+def _check_not_past(name: str, passed: Iterable[RestingPlace], out: Sequence[str]) -> None:
+    """Refuse a path that passes places where a robot may be that never gets on any more."""
+    for rest in passed:
         if rest.robot in out:
             raise NoPathError(
-                f"there is no way for '{member.name}' round '{rest.robot}', which doesn't drive "
-                "any more",
+                f"there is no way for '{name}' round '{rest.robot}', which doesn't drive any more",
                 where=np.array(rest.at),
                 remedy=f"take '{rest.robot}' away",
                 obstacles=(rest.robot,),
             )
-    return laid.plan
 
 
 def _with_room_at(

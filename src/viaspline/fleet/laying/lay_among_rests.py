@@ -42,6 +42,9 @@ IN_SIGHT_M = 4.0
 """Once a path is led round something, it sees others that it comes so near to [m]."""
 MAX_LOOKS = 4
 """How often a path steps aside, each time for those as well that it saw aside."""
+MOST_MET = 40
+"""A path that comes too near to more places isn't bent aside for them one by one: the time for that
+grows with their square, and they stand for wherever one may be that doesn't drive any more."""
 MAX_ROUNDS = 12
 """How often a path is laid, with ever more in its way, or less."""
 
@@ -92,11 +95,12 @@ def lay_among_rests(
         met = eased.near(plan.path.spans, reach + ENOUGH_MORE_M, out)
         if not met.size:
             break
-        aside, seen, others = _aside(plan, reach, eased, out)
-        if aside is None:
+        may_bend = met.size <= MOST_MET and can_step_aside(plan)
+        aside, seen, others = _aside(plan, reach, eased, out, may_bend=may_bend)
+        if aside is None and may_bend:
             rather = _eased(rests, points, reach, out, 2.0 * KEPT_MORE_M)
             if rather.places != eased.places:
-                aside, _, _ = _aside(plan, reach, rather, out)
+                aside, _, _ = _aside(plan, reach, rather, out, may_bend=True)
         if aside is not None:
             plan = aside
             break
@@ -165,7 +169,7 @@ def _points(mission: Mission) -> Floats:
 
 
 def _aside(
-    plan: Plan, reach: float, rests: RestingPlaces, out: frozenset[int]
+    plan: Plan, reach: float, rests: RestingPlaces, out: frozenset[int], *, may_bend: bool
 ) -> tuple[Plan | None, Ints, list[int]]:
     """The plan that steps aside for resting places.
 
@@ -174,13 +178,14 @@ def _aside(
         reach: How far the robot keeps others away on its part [m].
         rests: Of all robots.
         out: Indices of those that don't count.
+        may_bend: Whether its path may be bent aside.
 
     Returns:
         (the plan; None where there is no such, those that it sees, those of them that it is to be
         laid round then).
     """
     seen = rests.near(plan.path.spans, reach + IN_SIGHT_M, out)
-    if not can_step_aside(plan):
+    if not may_bend:
         return None, seen, seen.tolist()
     for _ in range(MAX_LOOKS):
         discs = rests.rows[seen]
