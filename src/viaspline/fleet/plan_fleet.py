@@ -216,7 +216,7 @@ def _unserved(
     fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, budget: float
 ) -> Sequence[NotServed]:
     """Why robots couldn't be timed, and what would help."""
-    if not fleet.world.moving and timed.patrols is None:
+    if not fleet.world.moving and not _has_patrols(timed.ways):
         return explain_unserved(fleet, paths, timed, budget)
     return unserved_beside(timed)
 

@@ -132,6 +132,15 @@ def test_a_patrol_that_passes_the_start_of_another_is_not_served_and_told_why() 
     assert plan.certificate.holds
 
 
+def test_of_patrols_that_pass_each_others_starts_nothing_is_tried_though_none_is_served() -> None:
+    behind = patrol([20, 20], [0, 20], [0, 0], [20, 0])
+    plan = plan_fleet(fleet_of({"route": SQUARE}, behind))
+    assert [one.name for one in plan.not_served] == ["r0", "r1"]
+    for one in plan.not_served:
+        assert "comes back to its start every lap" in one.reason
+        assert "start" in one.remedy
+
+
 def test_a_robot_that_would_stay_where_a_patrol_passes_is_not_served_but_may_leave() -> None:
     stays = plan_fleet(fleet_of({"route": SQUARE}, ride([20, -20], [20, 20])))
     (refused,) = stays.not_served
