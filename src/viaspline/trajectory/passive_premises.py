@@ -14,7 +14,7 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.motion.passive_stop import LEAST_GAP
+from viaspline.kernels.motion.passive_contacts import LEAST_GAP
 from viaspline.kernels.motion.passive_threats import Threats, free_until
 from viaspline.world.moving_obstacles import MovingObstacles
 

@@ -12,6 +12,7 @@ from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.motion import passive_stop as kernels
+from viaspline.kernels.motion.passive_contacts import LEAST_GAP
 from viaspline.trajectory.passive_premises import (
     SAME_PLACE_M,
     SPACING_M,
@@ -180,7 +181,7 @@ def passive_law(
     caps = np.interp(line, upper.distances, upper.speeds**2)
     caps[0] = speed**2
     part = ChordTable.of(path, here, end)
-    kept = keep + part.sag + 2.0 * kernels.LEAST_GAP  # so that a check finds it proven, too
+    kept = keep + part.sag + 2.0 * LEAST_GAP  # so that a check finds it proven, too
     distances, squares, proven = kernels.passive_profile(
         premises.along(part, kept), part.places, SPACING_M, kept, accel, brake,
         line - part.origin, caps, speed, now, lasting, stay, settle,

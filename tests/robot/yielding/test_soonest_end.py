@@ -101,9 +101,8 @@ def test_a_way_is_timed_if_it_may_be_soon_enough_and_left_out_if_it_cannot(
 ) -> None:
     timed: list[Path] = []
 
-    def driven(_: ReplanContext, solutions: Any, __: Knowledge) -> list[Any]:
-        timed.extend(solution.path for solution in solutions)
-        return []
+    def driven(_: ReplanContext, solution: Any) -> None:
+        timed.append(solution.path)
 
     monkeypatch.setattr(ways_past, "driven", driven)
     path = context.schedule.path

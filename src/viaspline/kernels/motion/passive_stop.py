@@ -24,24 +24,10 @@ from typing import Final
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.motion.passive_threats import (
-    Threats,
-    first_charted,
-    gap_to,
-    jumps_at,
-    rate_of,
-    sources,
-)
-
-LEAST_GAP: Final = 1e-3
-"""A gap beyond what is to be kept that is taken for none: checks would go on in ever smaller steps
-[m]."""
-
-LEAST_STEP_S: Final = 1e-6
-"""By so much a check goes on at least where a motion jumps: in that time nothing goes as far as the
-least gap [s]."""
+from viaspline.kernels.motion.passive_contacts import contact, go_on, is_untouched, note_far
+from viaspline.kernels.motion.passive_threats import Threats, first_charted, sources
 
 HALVINGS: Final = 12
 """How often the interval of speeds is halved in which the largest one is looked for,"""
@@ -51,67 +37,27 @@ STEP_HALVINGS: Final = 7
 
 
 @inner
-def _place(places: Floats, step: float, s: float) -> tuple[float, float]:
-    """The place at a distance along the path, on the chord between two places of the table."""
-    last = places.shape[0] - 2
-    j = min(max(math.floor(s / step), 0), last)
-    w = min(max(s / step - j, 0.0), 1.0)
-    return (
-        places[j, 0] + w * (places[j + 1, 0] - places[j, 0]),
-        places[j, 1] + w * (places[j + 1, 1] - places[j, 1]),
-    )
-
-
-@inner
-def _first_contact(
-    threats: Threats, first_source: int, places: Floats, step: float, keep: float,
-    s: float, v: float, accel: float, t: float, duration: float,
-) -> float:  # fmt: skip
-    """From when on a piece of a law isn't proven [s]; infinite if all of it is."""
-    first = np.inf
-    charted = first_charted(threats)
-    for k in range(first_source, sources(threats)):
-        if k >= charted and t + duration <= threats.free_until[k - charted]:
-            continue
-        rate = rate_of(threats, k)
-        late = 0.0
-        while late < duration and t + late < first:
-            now = v + accel * late
-            fastest = max(now, v + accel * duration)
-            x, y = _place(places, step, s + (v + 0.5 * accel * late) * late)
-            gap = gap_to(threats, k, t + late, x, y) - keep
-            if not gap > LEAST_GAP:
-                first = t + late
-                break
-            later = min(late + gap / (fastest + rate), duration)
-            jump = jumps_at(threats, k, t + late, t + later)
-            late = later if jump > t + later else max(jump - t, late + LEAST_STEP_S)
-    return first
-
-
-@inner
 def _stops(
-    threats: Threats, places: Floats, step: float, keep: float, brake: float, stay: float,
-    settle: float, s: float, v: float, t: float,
+    threats: Threats, far: Flags, places: Floats, step: float, keep: float, brake: float,
+    stay: float, settle: float, s: float, v: float, t: float,
 ) -> bool:  # fmt: skip
     """Whether a robot that brakes from here and now on is at rest before any contact.
 
     And before any in the time that it takes to settle [s], and whether what is on the map stays
-    away from it while it stays there for so long [s].
+    away from it while it stays there for so long [s]. What is far off isn't looked at.
     """
     lasts = v / brake
-    if _first_contact(threats, 0, places, step, keep, s, v, -brake, t, lasts) < np.inf:
+    if not is_untouched(threats, far, 0, places, step, keep, s, v, -brake, t, lasts):
         return False
-    rest = s + 0.5 * v * lasts
-    if settle > 0.0:
-        found = _first_contact(threats, 0, places, step, keep, rest, 0.0, 0.0, t + lasts, settle)
-        if found < np.inf:
-            return False
-    if stay <= 0.0:
-        return True
+    rest, rests = s + 0.5 * v * lasts, t + lasts
+    if settle > 0.0 and not is_untouched(
+        threats, far, 0, places, step, keep, rest, 0.0, 0.0, rests, settle
+    ):
+        return False
     charted = first_charted(threats)
-    found = _first_contact(threats, charted, places, step, keep, rest, 0.0, 0.0, t + lasts, stay)
-    return math.isinf(found)
+    return stay <= 0.0 or is_untouched(
+        threats, far, charted, places, step, keep, rest, 0.0, 0.0, rests, stay
+    )
 
 
 @kernel
@@ -135,7 +81,7 @@ def first_contact(threats: Threats, places: Floats, step: float, keep: float, la
         t, duration = law[piece, 3], law[piece, 4]
         if v <= 0.0 and accel <= 0.0:
             continue
-        found = _first_contact(threats, 0, places, step, keep, s, v, accel, t, duration)
+        found = contact(threats, 0, places, step, keep, s, v, accel, t, duration)
         if found < np.inf:
             return found
     return np.inf
@@ -161,7 +107,7 @@ def touched_at_rest(
     Returns:
         Infinite if it is for as long as it stays.
     """
-    return _first_contact(threats, first, places, step, keep, s, 0.0, 0.0, t, stay)
+    return contact(threats, first, places, step, keep, s, 0.0, 0.0, t, stay)
 
 
 @kernel
@@ -187,15 +133,16 @@ def stoppable_speeds(
         (m,) [m/s]; 0 where none is proven.
     """
     speeds = np.zeros(distances.size)
+    far = np.zeros(sources(threats), np.bool_)
     for j in range(distances.size):
         s, t = distances[j], times[j]
-        if _stops(threats, places, step, keep, brake, 0.0, 0.0, s, caps[j], t):
+        if _stops(threats, far, places, step, keep, brake, 0.0, 0.0, s, caps[j], t):
             speeds[j] = caps[j]
             continue
         low, high = 0.0, caps[j]
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            if _stops(threats, places, step, keep, brake, 0.0, 0.0, s, middle, t):
+            if _stops(threats, far, places, step, keep, brake, 0.0, 0.0, s, middle, t):
                 low = middle
             else:
                 high = middle
@@ -205,8 +152,9 @@ def stoppable_speeds(
 
 @inner
 def _goes_on(
-    threats: Threats, places: Floats, step: float, keep: float, brake: float, stay: float,
-    settle: float, s: float, v: float, t: float, width: float, square: float,
+    threats: Threats, far: Flags, room: Floats, fresh: Flags, places: Floats, step: float,
+    keep: float, brake: float, stay: float, settle: float, s: float, v: float, t: float,
+    width: float, square: float,
 ) -> bool:  # fmt: skip
     """Whether a robot may drive to the next place, have a v² there, and still stops in time."""
     after = math.sqrt(square)
@@ -214,30 +162,38 @@ def _goes_on(
         return False
     duration = 2.0 * width / (v + after)
     accel = (square - v * v) / (2.0 * width)
-    found = _first_contact(threats, 0, places, step, keep, s, v, accel, t, duration)
-    if found < np.inf:
+    way, lasts = width + 0.5 * square / brake, duration + after / brake + settle
+    note_far(threats, far, room, fresh, places, step, keep, s, t, way, lasts)
+    if not is_untouched(threats, far, 0, places, step, keep, s, v, accel, t, duration):
         return False
-    return _stops(threats, places, step, keep, brake, stay, settle, s + width, after, t + duration)
+    return _stops(
+        threats, far, places, step, keep, brake, stay, settle, s + width, after, t + duration
+    )
 
 
 @inner
 def _largest_square(
-    threats: Threats, places: Floats, step: float, keep: float, brake: float, stay: float,
-    settle: float, s: float, v: float, t: float, width: float, high: float,
+    threats: Threats, far: Flags, room: Floats, fresh: Flags, places: Floats, step: float,
+    keep: float, brake: float, stay: float, settle: float, s: float, v: float, t: float,
+    width: float, high: float,
 ) -> float:  # fmt: skip
     """The largest v² at the next place that is proven; that of braking on, below 0 if it rests."""
     best = v * v - 2.0 * brake * width
     if high < best:
         return best
-    if _goes_on(threats, places, step, keep, brake, stay, settle, s, v, t, width, high):
-        return high
     low = max(best, 0.0)
-    for _ in range(STEP_HALVINGS):
-        middle = 0.5 * (low + high)
-        if _goes_on(threats, places, step, keep, brake, stay, settle, s, v, t, width, middle):
-            low = best = middle
+    square = high
+    for _ in range(1 + STEP_HALVINGS):
+        if _goes_on(
+            threats, far, room, fresh, places, step, keep, brake, stay, settle, s, v, t, width,
+            square,
+        ):  # fmt: skip
+            low = best = square
         else:
-            high = middle
+            high = square
+        if best == high:
+            break
+        square = 0.5 * (low + high)
     return best
 
 
@@ -277,7 +233,9 @@ def passive_profile(
     s, v, t = line[0], speed, time
     distances[0], squares[0] = s, v * v
     settles = settle if v > 0.0 else 0.0
-    proven = _stops(threats, places, step, keep, brake, stay, settles, s, v, t)
+    far, fresh = np.zeros(sources(threats), np.bool_), np.zeros(sources(threats), np.bool_)
+    room = np.full(sources(threats), -np.inf)
+    proven = _stops(threats, far, places, step, keep, brake, stay, settles, s, v, t)
     n = 1
     for j in range(1, line.size):
         width = line[j] - line[j - 1]
@@ -285,7 +243,8 @@ def passive_profile(
         if proven and t < time + lasting:
             high = min(v * v + 2.0 * accel * width, caps[j])
             square = _largest_square(
-                threats, places, step, keep, brake, stay, settle, s, v, t, width, high
+                threats, far, room, fresh, places, step, keep, brake, stay, settle, s, v, t, width,
+                high,
             )  # fmt: skip
         square = min(square, caps[j])  # it isn't more, but for rounding
         if square < 0.0:
@@ -298,6 +257,8 @@ def passive_profile(
         n += 1
         if after <= 0.0:
             break
-        t += 2.0 * width / (v + after)
+        lasts = 2.0 * width / (v + after)
+        go_on(threats, room, fresh, width, lasts)
+        t += lasts
         s, v = line[j], after
     return distances[:n].copy(), squares[:n].copy(), proven

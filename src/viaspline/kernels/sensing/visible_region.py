@@ -25,26 +25,38 @@ def _beam_before(dx: float, dy: float, first: float, step: float) -> int:
 
 
 @inner
-def _is_seen(
-    x: float, y: float, origins: Floats, firsts: Floats, step: float, lengths: Floats
+def _sees(
+    x: float, y: float, scan: int, origins: Floats, firsts: Floats, step: float, lengths: Floats
 ) -> bool:
-    """Whether in one of some scans the beams on either side of (x, y) go at least as far as it."""
+    """Whether in a scan the beams on either side of (x, y) go at least as far as it."""
     beams = lengths.shape[1]
-    full = beams >= round(2.0 * math.pi / step)
+    dx = x - origins[scan, 0]
+    dy = y - origins[scan, 1]
+    right = _beam_before(dx, dy, firsts[scan], step)
+    left = right + 1
+    if beams >= round(2.0 * math.pi / step):
+        right %= beams
+        left %= beams
+    if left >= beams:
+        return False
+    shorter = min(lengths[scan, right], lengths[scan, left])
+    return dx * dx + dy * dy <= shorter * shorter
+
+
+@inner
+def _seen_by(
+    x: float, y: float, likely: int, origins: Floats, firsts: Floats, step: float, lengths: Floats
+) -> int:
+    """A scan that sees (x, y), the likely one if that does; -1: none does.
+
+    What saw the last place mostly sees the next one.
+    """
+    if _sees(x, y, likely, origins, firsts, step, lengths):
+        return likely
     for scan in range(origins.shape[0]):
-        dx = x - origins[scan, 0]
-        dy = y - origins[scan, 1]
-        right = _beam_before(dx, dy, firsts[scan], step)
-        left = right + 1
-        if full:
-            right %= beams
-            left %= beams
-        if left >= beams:
-            continue
-        shorter = min(lengths[scan, right], lengths[scan, left])
-        if dx * dx + dy * dy <= shorter * shorter:
-            return True
-    return False
+        if scan != likely and _sees(x, y, scan, origins, firsts, step, lengths):
+            return scan
+    return -1
 
 
 @kernel
@@ -70,15 +82,20 @@ def seen_ahead(
         How many places it can take, from the first on.
     """
     half = math.ceil(0.5 * math.pi * radius / gap)
+    along, aside = np.empty(2 * half + 1), np.empty(2 * half + 1)
+    for point in range(along.size):
+        angle = 0.5 * math.pi * (point - half) / max(half, 1)
+        along[point] = radius * math.cos(angle)
+        aside[point] = radius * math.sin(angle)
+    likely = 0
     for k in range(places.shape[0]):
-        for point in range(-half, half + 1):
-            angle = 0.5 * math.pi * point / max(half, 1)
-            along = radius * math.cos(angle)
-            aside = radius * math.sin(angle)
-            x = places[k, 0] + along * ahead[k, 0] - aside * ahead[k, 1]
-            y = places[k, 1] + along * ahead[k, 1] + aside * ahead[k, 0]
-            if not _is_seen(x, y, origins, firsts, step, lengths):
+        for point in range(along.size):
+            x = places[k, 0] + along[point] * ahead[k, 0] - aside[point] * ahead[k, 1]
+            y = places[k, 1] + along[point] * ahead[k, 1] + aside[point] * ahead[k, 0]
+            seen_by = _seen_by(x, y, likely, origins, firsts, step, lengths)
+            if seen_by < 0:
                 return k
+            likely = seen_by
     return places.shape[0]
 
 
@@ -102,6 +119,7 @@ def body_seen_ahead(
     Returns:
         How many poses it can take, from the first on.
     """
+    likely = 0
     for k in range(poses.shape[0]):
         c = math.cos(poses[k, 2])
         s = math.sin(poses[k, 2])
@@ -115,8 +133,10 @@ def body_seen_ahead(
                 continue
             x = poses[k, 0] + along * c - aside * s
             y = poses[k, 1] + along * s + aside * c
-            if not _is_seen(x, y, origins, firsts, step, lengths):
+            seen_by = _seen_by(x, y, likely, origins, firsts, step, lengths)
+            if seen_by < 0:
                 return k
+            likely = seen_by
     return poses.shape[0]
 
 

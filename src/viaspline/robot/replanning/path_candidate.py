@@ -62,10 +62,32 @@ def timed(
     Raises:
         SpentBudgetError: When there is no time left for that.
     """
-    corners, stands = _corners(context, mode, solution, turns), mode == "from_rest"
     trajectory = first_law(context, mode, solution, turns)
     if trajectory is None:
         return None
+    return slowed(context, mode, solution, trajectory, turns)
+
+
+def slowed(
+    context: ReplanContext,
+    mode: Mode,
+    solution: Solution,
+    trajectory: Trajectory,
+    turns: tuple[float, ...] = (),
+) -> PathCandidate | None:
+    """A path with its trajectory, as slow as it has to be; None if the robot can't go over to it.
+
+    Args:
+        context: The robot under way.
+        mode: How the path was found.
+        solution: The path.
+        trajectory: That of ``first_law``.
+        turns: As for ``timed``.
+
+    Raises:
+        SpentBudgetError: When there is no time left for that.
+    """
+    corners, stands = _corners(context, mode, solution, turns), mode == "from_rest"
     try:
         slow = slow_enough(
             context, solution, lambda slow: _as_if_seen(context, solution, corners, slow)

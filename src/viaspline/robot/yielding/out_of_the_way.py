@@ -16,10 +16,9 @@ from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.transitions import take_over
 from viaspline.robot.run import Event
 from viaspline.robot.yielding.meeting_ahead import meeting_ahead
-from viaspline.robot.yielding.swerves import Swerves, driven
+from viaspline.robot.yielding.swerves import Swerves
 from viaspline.spacetime.meetings import Meeting
 from viaspline.trajectory.trajectory import Trajectory
-from viaspline.world.moving_obstacles import MovingObstacles
 
 LATER_S = 0.1
 """A new path has to be met so much later than any law on this one [s]."""
@@ -63,8 +62,7 @@ def _aside(context: ReplanContext, paths: Swerves, later: float) -> PathCandidat
         return None
     moving, now = context.knowledge.moving, context.progress.time
     best = None
-    alone = replace(context.knowledge, moving=MovingObstacles())
-    for candidate in driven(context, paths, alone):
+    for candidate in paths.alone():
         path, law = candidate.solution.path, candidate.trajectory
         met = meeting_ahead(context.task, moving, path, law, now)
         begins = math.inf if met is None else met.begins

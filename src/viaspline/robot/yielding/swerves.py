@@ -5,7 +5,8 @@ Tested through ``robot/yielding/test_give_way``.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -16,8 +17,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.replanning.departure import rolling, standing
 from viaspline.planning.replanning.swerve import Swerving, may_swerve
-from viaspline.robot.navigation.knowledge import Knowledge
-from viaspline.robot.replanning.path_candidate import PathCandidate, first_law, timed
+from viaspline.robot.replanning.path_candidate import PathCandidate, first_law, slowed, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Mode
 from viaspline.robot.yielding.swerve_places import swerve_places
@@ -84,12 +84,28 @@ class Swerves:
             self._fastest[number] = self._alone(number)
         return self._fastest[number]
 
+    def alone(self) -> Iterator[PathCandidate]:
+        """Those that have a law if nothing moved, with that law."""
+        for number in range(len(self.places)):
+            path, candidate = self.path(number), None
+            with suppress(PlanningError):
+                law = self.fastest(number)
+                if path is not None and law is not None:
+                    candidate = slowed(self._unmoved, _mode(self.context), path, law)
+            if candidate is not None:
+                yield candidate
+
+    @cached_property
+    def _unmoved(self) -> ReplanContext:
+        """The robot as if nothing moved."""
+        known = replace(self.context.knowledge, moving=MovingObstacles())
+        return replace(self.context, knowledge=known)
+
     def _alone(self, number: int) -> Trajectory | None:
         path = self.path(number)
         if path is None:
             return None
-        known = replace(self.context.knowledge, moving=MovingObstacles())
-        return first_law(replace(self.context, knowledge=known), _mode(self.context), path)
+        return first_law(self._unmoved, _mode(self.context), path)
 
     def _through(self, number: int) -> Solution | None:
         if self._swerving is None:
@@ -109,26 +125,17 @@ class Swerves:
         return next(iter(self), None) is not None
 
 
-def driven(
-    context: ReplanContext, solutions: Iterable[Solution], known: Knowledge
-) -> list[PathCandidate]:
-    """Swerves with their laws; those that have none are left out.
+def driven(context: ReplanContext, solution: Solution) -> PathCandidate | None:
+    """A swerve with its law past what moves; None if it has none.
 
     Args:
         context: The robot under way.
-        solutions: The paths.
-        known: What the laws keep clear of.
+        solution: The path.
     """
-    as_known = replace(context, knowledge=known)
-    found = []
-    for solution in solutions:
-        try:
-            candidate = timed(as_known, _mode(context), solution)
-        except PlanningError:
-            continue
-        if candidate is not None:
-            found.append(candidate)
-    return found
+    try:
+        return timed(context, _mode(context), solution)
+    except PlanningError:
+        return None
 
 
 def _mode(context: ReplanContext) -> Mode:
