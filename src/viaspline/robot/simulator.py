@@ -25,7 +25,7 @@ MAX_DURATION_RATIO = 10.0
 """A drive is broken off after so many times its planned duration,"""
 
 MAX_DELAY_S = 600.0
-"""and this much longer [s]."""
+"""and this much longer, counted from when it may depart [s]."""
 
 
 STEP_S = 0.05
@@ -103,6 +103,7 @@ def simulate(
     nav = Navigator(mission, plan, reaction=longest_step(step), period=step, warm=False)
     world = World.everything(nav.mission)
     limit = MAX_DURATION_RATIO * nav.plan.trajectory.duration + MAX_DELAY_S
+    limit += nav.mission.route.depart_s
 
     def tell(time: float, nav: Navigator) -> None:
         if progress is not None:

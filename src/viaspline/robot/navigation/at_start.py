@@ -1,7 +1,4 @@
-"""A robot that stands at its start with its plan, and how it sets off.
-
-Tested through ``robot/test_navigator``.
-"""
+"""A robot that stands at its start with its plan, and how it sets off."""
 
 from __future__ import annotations
 
@@ -84,16 +81,21 @@ def _things_that_move(mission: Mission) -> MovingThings | None:
 def set_off(state: NavigationState, time: float, plan: Plan) -> NavigationState:
     """The state of a robot at its first step, at a time [s].
 
-    A law among what moves is one of the mission's clock; any other begins when the robot does.
+    Where anything of the mission moves, its clock is the one that counts: the robot stands until it
+    may depart, whatever it sees meanwhile. Else its law begins when the robot does.
     """
     progress, schedule = state.progress, state.schedule
     if progress.controller is not None:
         time += progress.controller.ahead
     words = f"sets off on a path of {schedule.path.length:.1f} m"
-    law = schedule.trajectory
+    mission, law, departs = plan.mission, schedule.trajectory, -math.inf
+    if plan.timed is not None or mission.world.unseen_moving:
+        departs = mission.route.depart_s
+    if plan.timed is None:
+        law = law.delayed(max(time, departs))
     return replace(
         state,
         progress=replace(progress, time=time, set_off=True),
-        schedule=replace(schedule, trajectory=law.delayed(time) if plan.timed is None else law),
+        schedule=replace(schedule, trajectory=law, committed_until=departs),
         log=state.log.with_events(Event("started", time, schedule.place(0.0), words)),
     )

@@ -195,7 +195,7 @@ class ReplanContext:
         budget, trajectory = WorkBudget(limit, finished=dict(finished)), self.schedule.trajectory
         until = trajectory.cut_after(self.progress.time + limit)
         task = replace(self.task, requirements=self.task.requirements.within(budget))
-        schedule = replace(self.schedule, committed_until=until)
+        schedule = replace(self.schedule, committed_until=max(until, self.schedule.committed_until))
         return replace(
             self,
             task=task,

@@ -19,6 +19,8 @@ from viaspline.robot.state import Command
 def held_still(task: DriveTask, progress: Progress, schedule: Schedule) -> Schedule:
     """The schedule of a robot that brakes as hard as it can, and stands.
 
+    One that stands and isn't to depart yet isn't to do so once it is let on either.
+
     Args:
         task: What is asked of the drive.
         progress: How far it has come.
@@ -27,7 +29,8 @@ def held_still(task: DriveTask, progress: Progress, schedule: Schedule) -> Sched
     free = replace(schedule, committed_until=-float("inf"))
     speed = float(schedule.trajectory.state_at(progress.time)[1])
     stop = braking_at_once(task, progress, free, speed)
-    return replace(free, trajectory=stop, timed_at=progress.time)
+    held = free if speed > 0.0 else schedule
+    return replace(held, trajectory=stop, timed_at=progress.time)
 
 
 def let_on(

@@ -1,0 +1,65 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from viaspline.mission.model import Mission
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.simulator import simulate
+from viaspline.robot.state import RobotState
+
+DEPARTS_S, STEP_S = 5.0, 0.1
+CART = {"name": "cart", "circle": {"center": [0, 0], "radius": 0.3}}
+FAR = {**CART, "motion": {"from": [50, 50], "velocity_mps": [0, 0.1]}}
+CROSSING = {**CART, "name": "other cart", "motion": {"from": [4, -7], "velocity_mps": [0, 1]}}
+BESIDE = {"name": "post", "circle": {"center": [3, 0.2], "radius": 0.4}}
+RANGE, LIDAR = {"range_m": 9}, {"lidar": {"range_m": 9}}
+PASSIVE = {"max_speed_mps": 1.5, "safety": "passive"}
+
+
+def mission(world: dict[str, Any], **robot: Any) -> Mission:
+    limits = {"radius_m": 0.25, "max_speed_mps": 1.0, "max_accel_mps2": 1.0}
+    route = {"start": [0, 0], "goal": [8, 0], "depart_s": DEPARTS_S}
+    return Mission.model_validate({"world": world, "robot": limits | robot, "route": route})
+
+
+@pytest.mark.parametrize(
+    ("world", "robot"),
+    [
+        ({"known": [FAR], "unseen": [BESIDE]}, {"sensor": RANGE}),
+        ({"known": [FAR], "unseen": [BESIDE]}, {"sensor": LIDAR}),
+        ({"known": [FAR], "unseen": [CROSSING]}, {"sensor": RANGE, "moving": PASSIVE}),
+        ({"unseen": [CROSSING]}, {"sensor": RANGE}),
+        ({"unseen": [CROSSING, BESIDE]}, {"sensor": RANGE, "max_jerk_mps3": 1.0}),
+    ],
+    ids=["goes round", "goes round by lidar", "kept safe", "only unseen", "limited jerk"],
+)
+def test_a_robot_sets_off_when_it_may_depart_whatever_it_sees_until_then(
+    world: dict[str, Any], robot: dict[str, Any]
+) -> None:
+    run = simulate(mission(world, **robot), step=STEP_S)
+    assert run.reached
+    moves = run.times[run.speeds > 0.0]
+    assert DEPARTS_S < moves[0] <= DEPARTS_S + 1.5 * STEP_S
+    assert (run.positions[run.times <= DEPARTS_S] == run.positions[0]).all()
+
+
+def test_a_robot_that_was_held_still_before_it_may_depart_stays_until_then() -> None:
+    nav = Navigator(mission({"known": [FAR]}), reaction=STEP_S, period=STEP_S, warm=False)
+    for time, stamp in ((0.0, 0.0), (1.0, 0.0), (1.1, 1.1), (1.2, 1.2), (2.0, 0.0), (3.0, 3.0)):
+        command, nav = nav.step(RobotState((0.0, 0.0), 0.0, 0.0, stamp=stamp), (), time)
+        assert [event.kind for event in nav.events].count("stale") == (
+            1 if time - stamp > 0.2 else 0
+        )
+        assert command.speed == 0.0
+    assert nav.trajectory.state_at(DEPARTS_S)[1] == 0.0
+    assert nav.trajectory.state_at(DEPARTS_S + 1.0)[1] > 0.0
+
+
+def test_a_drive_that_departs_late_is_not_broken_off_before() -> None:
+    late = mission({"known": [FAR]}).model_dump(by_alias=True, exclude_defaults=True)
+    late["route"]["depart_s"] = 1000.0
+    run = simulate(Mission.model_validate(late), step=1.0)
+    assert run.reached
+    assert run.duration == pytest.approx(1009.0, abs=0.1)
