@@ -61,6 +61,17 @@ def test_a_leg_is_as_long_as_it_is_laid(bends: list[tuple[float, float, float, f
         assert found[i, j] <= as_laid(rows, start, goal) + 1e-6
 
 
+@pytest.mark.parametrize("far", [0.3, 0.6, 1.5, 12.0])
+def test_a_leg_is_as_long_as_it_is_laid_between_headings_near_its_line(far: float) -> None:
+    rows = np.array([bend(*each, 0, 0, RADIUS) for each in ((0, 0), (far, 0))])
+    headings = np.linspace(-0.2, 0.2, 9)
+    found = least(rows, headings, headings)
+    laid = [[as_laid(rows, start, goal) for goal in headings] for start in headings]
+    np.testing.assert_allclose(found, laid, atol=1e-6)
+    assert found[4, 4] == pytest.approx(far)
+    assert found[3, 5] < 1.01 * far
+
+
 @given(st.booleans(), st.integers(0, 2**32 - 1))
 def test_the_cheapest_row_of_headings_is_that_of_brute_force(closed: bool, seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -9,15 +9,36 @@ import numpy as np
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning.needed_turns import needed_turns
-from viaspline.kernels.turning.settled_lines import FINE, HEADING, SIDE
+from viaspline.kernels.turning.settled_lines import FINE, HEADING, KEPT, SIDE, X, Y
 from viaspline.kernels.turning.turn_spans import turn_sequence_length
+
+
+@kernel
+def lesser_side(bends: Floats, at_start: bool) -> float:
+    """The side to which the turn at an end is the lesser one, if the next bend is as it is.
+
+    Args:
+        bends: A row with a heading given there, see ``kernels.turning.settled_lines``, (n, 6).
+        at_start: Whether it is the start, not the goal.
+    """
+    first = 0 if at_start else bends.shape[0] - 2
+    last = first + 1
+    dx, dy = bends[last, X] - bends[first, X], bends[last, Y] - bends[first, Y]
+    across = bends[last, SIDE] * bends[last, KEPT] - bends[first, SIDE] * bends[first, KEPT]
+    gap, line = math.hypot(dx, dy), math.atan2(dy, dx)
+    if gap > abs(across):
+        line -= math.asin(across / gap)
+    turn = line - bends[first, HEADING] if at_start else bends[last, HEADING] - line
+    return math.copysign(1.0, turn - math.tau * round(turn / math.tau))
 
 
 @kernel
 def leg_lengths(bends: Floats, starts: Floats, goals: Floats, ramp: float) -> Floats:
     """Lengths of a leg from every heading at its start to every heading at its goal.
 
-    Bends that the others make needless are left out, as they are where the leg is laid.
+    Bends that the others make needless are left out, as they are where the leg is laid, and given
+    headings are left to the same sides: by the lesser turn, to whichever side it comes to be, and
+    by that to the other side. A set side that is nearly that of its line may settle as a loop.
 
     Args:
         bends: The leg's row of bends, see ``kernels.turning.settled_lines``, (n, 6).
@@ -26,8 +47,8 @@ def leg_lengths(bends: Floats, starts: Floats, goals: Floats, ramp: float) -> Fl
         ramp: Length of the ramps, in least radii.
 
     Returns:
-        (k, l, 2, 2) [m]: leaving to the left or to the right, arriving in a left or in a right
-        turn; infinite where there are no such turns.
+        (k, l, 2, 2) [m]: leaving by the lesser turn or by the other one, arriving by the lesser one
+        or by the other one; infinite where there are no such turns.
     """
     row = bends.copy()
     last = bends.shape[0] - 1
@@ -35,14 +56,15 @@ def leg_lengths(bends: Floats, starts: Floats, goals: Floats, ramp: float) -> Fl
     for i in range(starts.shape[0]):
         for j in range(goals.shape[0]):
             row[0, HEADING], row[last, HEADING] = starts[i], goals[j]
+            row[0, SIDE], row[last, SIDE] = 0.0, 0.0
+            leaving, arriving = -lesser_side(row, True), -lesser_side(row, False)
             for a in range(2):
                 if a == 1 and math.isnan(starts[i]):
                     continue
                 for b in range(2):
                     if b == 1 and math.isnan(goals[j]):
                         continue
-                    row[0, SIDE] = 0.0 if math.isnan(starts[i]) else 1.0 - 2.0 * a
-                    row[last, SIDE] = 0.0 if math.isnan(goals[j]) else 1.0 - 2.0 * b
+                    row[0, SIDE], row[last, SIDE] = a * leaving, b * arriving
                     left, lines, turns, apexes, ramps, state, _ = needed_turns(row, False, ramp)
                     if state == FINE:
                         lengths[i, j, a, b] = turn_sequence_length(

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.turning.heading_costs import lesser_side
 from viaspline.kernels.turning.needed_turns import needed_turns
 from viaspline.kernels.turning.settled_lines import FINE
 from viaspline.kernels.turning.turn_spans import turn_sequence_length, turn_sequence_spans
-from viaspline.planning.turning.bend_row import DETOUR, HEADING, KEPT, SIDE, Bends, X, Y
+from viaspline.planning.turning.bend_row import DETOUR, HEADING, SIDE, Bends, X, Y
 
 OVERSHOOT = 1.0035  # of the least radius over the turning circle: cubics bend a little more
 RAMP = 1.0  # length of a ramp, in radii
@@ -172,7 +173,7 @@ def with_sides(bends: Bends) -> Iterator[Bends]:
     At via points at which the path goes back as it came neither side is the lesser one: it goes to
     either, and to whichever it comes to be, which may settle otherwise.
     """
-    ends = [(k, (0.0, -_lesser_side(bends.rows, k))) for k in _given(bends)]
+    ends = [(k, (0.0, -lesser_side(bends.rows, k == 0))) for k in _given(bends)]
     back = [(k, (0.0, side, -side)) for k, side in _turned_back(bends, EXACTLY_BACK_RAD)]
     if not ends and not back:
         yield bends
@@ -236,15 +237,3 @@ def _given(bends: Bends) -> list[int]:
     if bends.closed:
         return []
     return [k for k in (0, -1) if math.isfinite(bends.rows[k, HEADING])]
-
-
-def _lesser_side(rows: Floats, end: int) -> float:
-    """The side to which the turn at an end is the lesser one, if the next bend is as it is."""
-    first, last = (rows[:2] if end == 0 else rows[-2:]).tolist()
-    dx, dy = last[X] - first[X], last[Y] - first[Y]
-    across = last[SIDE] * last[KEPT] - first[SIDE] * first[KEPT]
-    gap, line = math.hypot(dx, dy), math.atan2(dy, dx)
-    if gap > abs(across):
-        line -= math.asin(across / gap)
-    turn = line - first[HEADING] if end == 0 else last[HEADING] - line
-    return math.copysign(1.0, math.remainder(turn, math.tau))
