@@ -319,3 +319,25 @@ def test_where_no_strip_with_more_places_is_tried_none_would_be_taken(
         assert found.path.spans.tobytes() == always.path.spans.tobytes()
     assert tried.count(False) > 5
     assert tried.count(True) > 0
+
+
+@pytest.mark.parametrize("seed", [0, 41, 66])
+def test_limits_are_kept_between_via_points_closer_together_than_a_turn(seed: int) -> None:
+    random = np.random.default_rng((78, seed))
+    places = random.uniform(2, 28, (3, 2))
+    way = random.uniform(0, 2 * np.pi, 3)
+    near = np.column_stack((np.cos(way), np.sin(way))) * random.uniform(0.12, 0.64, (3, 1))
+    *vias, goal = np.stack((places, places + near), axis=1).reshape(-1, 2).round(3).tolist()
+    robot = {"radius_m": 0.3, "clearance_m": 0.1, "max_speed_mps": 2, "max_accel_mps2": 0.8}
+    plan = vs.plan(vs.Mission.model_validate(
+        {"world": {}, "robot": robot, "route": {"start": [15, 15], "via": vias, "goal": goal}}
+    ))  # fmt: skip
+    count = len(plan.path.spans)
+    places, bends = (what(np.linspace(0, count, 40 * count + 1)) for what in
+                     (plan.path.evaluate, plan.path.curvature))  # fmt: skip
+    along = np.cumsum(np.hypot(*np.diff(places, axis=0, prepend=places[:1]).T))
+    at = np.minimum(along, plan.trajectory.distances[-1])
+    speeds = np.array([plan.trajectory.speed_at(each) for each in at.tolist()])
+    assert (speeds**2 * np.abs(bends)).max() < 1.001 * 0.8
+    assert np.abs(bends).max() * 0.3 <= 1.0
+    assert plan.drivability.verdict == "good"

@@ -10,11 +10,12 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.jit import inner, kernel, uncounted
+from viaspline.kernels.jit import inlined, inner, kernel, uncounted
 
 SAMPLES = 4  # of a span
 KINK_RAD = 1.0  # from step to step
 LITTLE_SLOPE = 0.5  # across over along the step before: clearly less than a kink
+COLLAPSED = 3e-3  # of what is required, or of the steps of its leg in the mean: no step any more
 
 
 @inner
@@ -96,6 +97,40 @@ def strip_places(
     for axis in range(2):
         places[-1, axis] = points[-1, axis]
     return places, begins
+
+
+@kernel
+def places_apart(places: Floats, joints: Ints, required: float) -> Ints:
+    """Which places of a row are left when those go that lie on the one before or on a via point.
+
+    Args:
+        places: [m], (n, 2).
+        joints: Which of them are via points, which stay, (k,).
+        required: What has to be kept about them [m].
+
+    Returns:
+        (m,).
+    """
+    left = np.zeros(places.shape[0], np.bool_)
+    left[joints] = True
+    for leg in range(joints.size - 1):
+        first, last = joints[leg], joints[leg + 1]
+        total = 0.0
+        for j in range(first, last):
+            total += _gap(places, j, j + 1)
+        least = COLLAPSED * min(total / max(last - first, 1), required)
+        before = first
+        for j in range(first + 1, last):
+            if _gap(places, before, j) >= least and _gap(places, j, last) >= least:
+                left[j] = True
+                before = j
+    return np.flatnonzero(left)
+
+
+@inlined
+def _gap(places: Floats, i: int, j: int) -> float:
+    """From one place to another [m]."""
+    return math.hypot(places[j, 0] - places[i, 0], places[j, 1] - places[i, 1])
 
 
 @kernel

@@ -51,7 +51,8 @@ def gentle_strips(
     for strip in _finer_and_finer(run, world, body):
         search = _searched(strip, price)
         for tried in _promising(search):
-            for one in _as_fine_as_it_rests(tried, price):
+            for found in _as_fine_as_it_rests(tried, price):
+                one = found.with_places_apart
                 if one.is_settled and (
                     price.is_gentler(bending(one.spans)[0])
                     or price.is_sooner(one.spans, one.joints)

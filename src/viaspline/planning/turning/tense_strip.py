@@ -6,13 +6,14 @@ Tested through ``planning/methods/test_bent_gently``.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.turning.settled_strip import StripPlaces, placed_strip, settled_strip
-from viaspline.kernels.turning.strip_places import has_kink
+from viaspline.kernels.turning.strip_places import has_kink, places_apart
+from viaspline.kernels.turning.strip_spans import strip_spans
 from viaspline.kernels.turning.swept_sides import StripBody
 from viaspline.planning.turning.bendable_run import BendableRun, LaidRun
 from viaspline.world.world import World
@@ -88,6 +89,31 @@ class TenseStrip:
     def has_kink(self) -> bool:
         """Whether it turns so much from step to step that it is no curve any more."""
         return bool(has_kink(self.strip.places))
+
+    @property
+    def with_places_apart(self) -> TenseStrip:
+        """It without places that lie on others: the curve would turn to and fro between them.
+
+        Between via points that are closer together than a turn they may come to lie so. As it is
+        where there are none.
+        """
+        strip = self.strip
+        left = places_apart(strip.places, strip.joints, self.body.required)
+        if len(left) == len(strip.places):
+            return self
+        places, normals = strip.places[left], strip.normals[left]
+        apart = strip._replace(
+            places=places,
+            joints=np.searchsorted(left, strip.joints),
+            fixed=strip.fixed[left],
+            normals=normals,
+            spans=strip_spans(places, normals, self.run.ends, strip.closed),
+            low=strip.low[left],
+            high=strip.high[left],
+            reach=strip.reach[left],
+            rooms=strip.rooms[left],
+        )
+        return replace(self, strip=apart)
 
     @property
     def is_open(self) -> bool:
