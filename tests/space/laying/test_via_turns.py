@@ -52,6 +52,7 @@ def duration(laid: LaidRoute) -> float:
 
 @given(seed=seeds)
 @example(seed=3)
+@example(seed=210)  # a corner that is moved to the other side of its turn
 def test_a_via_point_is_passed_exactly_and_without_a_jump(seed: int) -> None:
     legs = random_route(seed)
     laid = lay_route(legs)
@@ -119,3 +120,17 @@ def test_legs_that_are_tightened_share_the_tighter_turn() -> None:
     laid = lay_route(close)
     before, after = laid.spans[laid.joints[1] - 1], laid.spans[laid.joints[1]]
     assert np.allclose(bend(before[::-1]), bend(after), atol=1e-9)
+
+
+@given(seed=seeds, wide=st.floats(1.0, 60.0))
+@example(seed=0, wide=20.0)
+def test_a_way_round_to_one_side_never_bends_to_the_other(seed: int, wide: float) -> None:
+    rng = np.random.default_rng(seed)
+    at = np.cumsum(rng.uniform(0.3, 0.75, 7))
+    places = 100.0 * np.column_stack([np.cos(at), np.sin(at), np.zeros(7)])
+    spans = lay_route(led(places[::2], [places[k : k + 1] for k in (1, 3, 5)], wide)).spans
+    ways = np.diff(spans, axis=1)
+    ways = ways[np.linalg.norm(ways, axis=2) > 1e-6]
+    turned = ways[:-1, 0] * ways[1:, 1] - ways[:-1, 1] * ways[1:, 0]
+    sizes = np.linalg.norm(ways[:-1], axis=1) * np.linalg.norm(ways[1:], axis=1)
+    assert (turned / sizes).min() > -0.03

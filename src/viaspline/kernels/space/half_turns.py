@@ -133,6 +133,19 @@ def turn_through(
 
 
 @kernel
+def turn_radius(turn: Floats, wanted: float) -> float:
+    """The radius of a turn where a leg wants one [m].
+
+    Args:
+        turn: See ``space/laying/via_turns``, (2 d + 3,).
+        wanted: By the leg [m].
+    """
+    at = len(turn) - 3
+    most, share, close = turn[at], turn[at + 1], turn[at + 2]
+    return min(most, max(min(close, wanted), share * wanted))
+
+
+@kernel
 def half_turn(via: Floats, way: Floats, inside: Floats, towards: Floats, radius: float) -> Floats:
     """The half of a turn that leaves a via point.
 

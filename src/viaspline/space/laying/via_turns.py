@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.space.half_turns import half_turn, turn_through
+from viaspline.kernels.space.half_turns import turn_radius, turn_through
 from viaspline.space.laying.via_directions import Inner
 
 ROOMY: Final = 1.25
@@ -68,25 +68,9 @@ def via_turns(
         turn = turn_through(vias[k], back, on, to_end, from_end)
         if ROOMY * turn[-2] >= close:
             turns[k, :-1], turns[k, -1] = turn, close
-            turns[k, -3] = _radius(turns[k], min(float(radii[k - 1][-1]), float(radii[k][0])))
+            wanted = min(float(radii[k - 1][-1]), float(radii[k][0]))
+            turns[k, -3] = turn_radius(turns[k], wanted)
     return turns
-
-
-def turn_from(via: Floats, turn: Floats, towards: Floats, wanted: float) -> Floats:
-    """The half of a turn after a via point, towards what is next: a control polygon [m], (4, d).
-
-    Args:
-        via: [m], (d,).
-        turn: See ``via_turns``, (2 d + 3,).
-        towards: What is next [m], (d,).
-        wanted: The radius that is wanted [m].
-    """
-    return _half(via, 1.0, turn, towards, wanted)
-
-
-def turn_to(via: Floats, turn: Floats, origin: Floats, wanted: float) -> Floats:
-    """The half of a turn before a via point, from what comes before it [m]; see ``turn_from``."""
-    return _half(via, -1.0, turn, origin, wanted)[::-1].copy()
 
 
 def aside_radius(way: Floats, apart: Floats, wanted: float, close: float) -> float:
@@ -105,16 +89,3 @@ def aside_radius(way: Floats, apart: Floats, wanted: float, close: float) -> flo
     angle = math.acos(min(max(along / float(np.linalg.norm(apart)), -1.0), 1.0))
     share = min(max((BACK - angle) / (BACK - FORWARD), 0.0), 1.0)
     return max(min(close, wanted), share * wanted)
-
-
-def _half(via: Floats, sign: float, turn: Floats, towards: Floats, wanted: float) -> Floats:
-    axes = len(via)
-    way, inside = turn[:axes], turn[axes : 2 * axes]
-    span: Floats = half_turn(via, sign * way, inside, towards, _radius(turn, wanted))
-    return span
-
-
-def _radius(turn: Floats, wanted: float) -> float:
-    """The radius of a turn [m] where a leg wants one."""
-    most, share, close = (float(one) for one in turn[-3:])
-    return min(most, max(min(close, wanted), share * wanted))
