@@ -113,3 +113,24 @@ def test_a_leg_whose_taut_way_is_not_clear_is_stuck_and_says_which_one() -> None
         clear_route(start, never, lambda leg, laid: np.array([[30.0, 9, 5]]), 5.0)
     assert stuck.value.leg == 0
     assert next(calls) < 200
+
+
+def test_what_passed_of_a_leg_that_goes_back_and_was_tightened_is_what_is_laid() -> None:
+    vias = np.array([[30.0, 0, 5], [40, 0, 5], [0, 40, 5]])
+    shape = CurveShape(np.zeros(2))
+    start = RouteLegs.left_to_the_spline(vias, np.full((3, 3), np.nan), shape, close=0.5)
+    led = start.led_round(1, np.array([[42.0, 24, 5]]), 12.0)
+    passed = []
+
+    def check(leg: int, spans: np.ndarray) -> np.ndarray | None:
+        swings_out = spans[:, :, 0].max() > 43.5
+        if leg == 1 and swings_out:
+            return vias[1]
+        passed.append((leg, spans))
+        return None
+
+    found = clear_route(led, check, lambda leg, laid: laid[:0, 0], 12.0)
+    assert found.legs.radii[1].min() < 12.0
+    for leg in (0, 1):
+        laid = found.laid.leg(leg)
+        assert any(its == leg and np.array_equal(spans, laid) for its, spans in passed)

@@ -18,7 +18,7 @@ from viaspline.curve.cardinal import CardinalSpline, Knots, Tangents
 from viaspline.kernels.arrays import Floats
 from viaspline.space.laying.leg_polygon import LegPolygon
 from viaspline.space.laying.via_directions import Inner, via_directions
-from viaspline.space.laying.via_turns import aside_radius, via_turns
+from viaspline.space.laying.via_turns import via_turns
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,14 +114,10 @@ class RouteLegs:
             inner: Its corners [m], (k, d).
         """
         points = np.concatenate((self.vias[leg : leg + 1], inner, self.vias[leg + 1 : leg + 2]))
-        radii, its = self.radii[leg], self.turns[leg : leg + 2]
-        for end, sign, beside in ((0, 1.0, 1), (-1, -1.0, -2)):
-            via, way = leg - end, sign * self.ways[leg - end]
-            if np.isnan(its[end, -1]) and np.isnan(self.given[via, 0]) and not np.isnan(way[0]):
-                radii = radii.copy()
-                apart = points[beside] - points[end]
-                radii[end] = aside_radius(way, apart, float(radii[end]), self.close)
-        return LegPolygon(points, self.ways[leg : leg + 2], radii, its)
+        its, ways = self.turns[leg : leg + 2], self.ways[leg : leg + 2]
+        own = np.isnan(its[:, -1]) & np.isnan(self.given[leg : leg + 2, 0])
+        close = np.where(own & ~np.isnan(ways[:, 0]), self.close, np.nan)
+        return LegPolygon(points, ways, self.radii[leg], its, close)
 
 
 @dataclass(frozen=True, eq=False)

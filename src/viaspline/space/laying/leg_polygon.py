@@ -17,7 +17,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.space.corner_polygon import corner_polygon
 from viaspline.kernels.space.turned_leg import turned_leg
 from viaspline.space.laying.corner_rounding import rounded
-from viaspline.space.laying.via_turns import no_turns
+from viaspline.space.laying.via_turns import aside_radius, no_turns
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,12 +32,15 @@ class LegPolygon:
             curvature to be had if there is room [m], shape (k + 2,).
         turns: At the first and the last via point, in place of a direction; see ``via_turns``,
             (2, 2 d + 3), a row of NaN where there is none.
+        close: How close its turns at the first and the last via point may be, where a wide one
+            would be a loop [m], (2,); see ``aside_radius``. NaN: as wide as is wanted.
     """
 
     points: Floats
     directions: Floats
     radii: Floats
     turns: Floats = field(default_factory=lambda: no_turns(2, 3))
+    close: Floats = field(default_factory=lambda: np.full(2, np.nan))
 
     def spans(self) -> tuple[Floats, Floats]:
         """The leg's curve.
@@ -56,11 +59,23 @@ class LegPolygon:
 
     def curve(self) -> Floats:
         """The leg's curve alone: Bézier control polygons [m], (m, 4, d)."""
+        radii = self._radii()
         if not np.isnan(self.turns[:, -1]).all():
-            spans: Floats = turned_leg(self.points, self.directions, self.radii, self.turns)
+            spans: Floats = turned_leg(self.points, self.directions, radii, self.turns)
             return spans
-        polygon, reaches = corner_polygon(self.points, self.directions, self.radii)
+        polygon, reaches = corner_polygon(self.points, self.directions, radii)
         return rounded(polygon, reaches)
+
+    def _radii(self) -> Floats:
+        """How gently it turns: closer where it would go round in a loop, (k + 2,) [m]."""
+        if np.isnan(self.close).all():
+            return self.radii
+        radii = self.radii.copy()
+        for end, sign, beside in ((0, 1.0, 1), (-1, -1.0, -2)):
+            if not np.isnan(self.close[end]):
+                way, apart = sign * self.directions[end], self.points[beside] - self.points[end]
+                radii[end] = aside_radius(way, apart, float(radii[end]), float(self.close[end]))
+        return radii
 
 
 def _with_joints(spans: Floats, places: Floats) -> tuple[Floats, Floats]:
