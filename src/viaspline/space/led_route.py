@@ -18,7 +18,9 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
 from viaspline.space.laying.laid_route import RouteLegs
+from viaspline.space.laying.otherwise_laid import changes
 from viaspline.space.laying.sooner_corners import with_fewer
+from viaspline.space.laying.via_turns import ROOMY
 from viaspline.space.leg_check import LegCheck
 from viaspline.space.route_law import cost_of
 from viaspline.space.spatial_account import LedLeg, SpatialAccount, UntoldSides
@@ -29,6 +31,7 @@ from viaspline.space.weighed_ways import (
     WeighedWay,
     by_cost,
     corner_radius,
+    least_radius,
     told,
 )
 
@@ -136,6 +139,7 @@ class RouteLayer:
         if differ:
             best = self._by_other_ways(legs, best, differ)
         together = self._with_fewer_corners(legs, self._best_together(legs, best))
+        together = self._laid_sooner(together)
         return [best] if together is best else [together, best]
 
     def _by_other_ways(self, legs: RouteLegs, best: LedRoute, differ: list[int]) -> LedRoute:
@@ -202,6 +206,25 @@ class RouteLayer:
         points = np.concatenate((ends[:1], way.inner, ends[1:]))
         for fewer in with_fewer(points, self.radius):
             yield way._replace(inner=fewer[1:-1])
+
+    def _laid_sooner(self, found: LedRoute) -> LedRoute:
+        """A route with closer turns, or legs that aren't the spline any more, if that is sooner.
+
+        See ``changes``; where the length counts all of them are close.
+        """
+        if self.problem.objective == "length" or not found.ways:
+            return found
+        cost = cost_of(self.problem)
+        best, least = found, cost(found.laid)
+        close = ROOMY * least_radius(self.problem)
+        for change in changes(found.legs, self.radius, close):
+            try:
+                other = self.laid_anew(change(best.legs), best)
+            except StuckLegError:
+                continue
+            if (price := cost(other.laid)) < least * (1 - LEAST_GAIN):
+                best, least = other, price
+        return best
 
     def lay(self, legs: RouteLegs, before: Mapping[int, LedWay]) -> LedRoute:
         """The route with what isn't clear of it led round.
