@@ -85,6 +85,19 @@ def test_a_landing_counts_with_what_it_descends() -> None:
     assert heights == [60, 4]  # descending takes twice as long, but has to be done in either order
 
 
+def test_no_order_comes_down_through_a_roof_to_where_it_lands() -> None:
+    """Coming from the high point would be shorter, but for the roof over the landing."""
+    roof = {"box": {"min": [36, -4, 10], "max": [46, 4, 11]}}
+    asked = Mission.model_validate({
+        "world": {"ground": {"flat_m": 0}, "known": [roof]},
+        "robot": {"radius_m": 0.4, "half_height_m": 0.2},
+        "route": {"start": [0, 0, 4], "via": [[10, 0, 4], [22, 0, 20]],
+                  "land": {"at": [41, 0]}, "order": "shortest"},
+    })  # fmt: skip
+    assert [via.at[0] for via in ordered_in_space(asked).route.via] == [22, 10]
+    assert vs.plan(asked).certificate.holds
+
+
 def test_via_points_keep_the_names_of_their_places_in_the_given_order() -> None:
     asked = mission([(0, 0, 5), (30, 0, 5), (10, 0, 5), (40, 0, 5)])
     assert [via.name for via in ordered_in_space(asked).route.via] == ["via 2", "via 1"]

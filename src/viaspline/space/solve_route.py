@@ -211,7 +211,7 @@ def whole_proof(
         prove: Of that part; what is known already of such a curve isn't proven again.
     """
     parts = [(*airborne, prove or partial(proven, problem))]
-    upright = partial(_proven_upright, problem)
+    upright = partial(proven_upright, problem)
     if problem.takeoff is not None:
         parts.append((0.0, airborne[0], upright))
     if problem.landing is not None:
@@ -220,7 +220,8 @@ def whole_proof(
     return min(proofs, key=lambda proof: proof.clearance)
 
 
-def _proven_upright(problem: SpatialProblem, spans: Floats) -> Certificate:
+def proven_upright(problem: SpatialProblem, spans: Floats) -> Certificate:
+    """What is proven of an upright leg's clearance, (m, 4, 3) [m]: the ground doesn't count."""
     world = without_ground(problem.world)
     return certify(PiecewiseCubic(spans), world, problem.clearance, radius=problem.radius)
 

@@ -30,7 +30,9 @@ from viaspline.planning.routing.least_order import (
 )
 from viaspline.planning.routing.moved_forwards import Between
 from viaspline.planning.routing.visit_order import MAX_VIAS_ROUTED, among_near, named
+from viaspline.space.laying.corner_rounding import straight_span
 from viaspline.space.leg_router import LegRouter
+from viaspline.space.solve_route import proven_upright
 from viaspline.space.spatial_request import spatial_problem_of
 
 
@@ -120,7 +122,8 @@ def _see_forwards(backwards: list[int], vias: Sequence[ViaPoint], points: Floats
 def _costs(mission: Mission, places: FlightPlaces, points: Floats) -> Floats:
     """What the ways from each point to each other one cost [m or s], (n, n); infinite: no way.
 
-    A landing is flown to at the height of the point before it, and then straight down.
+    A landing is flown to at the height of the point before it, and then straight down, if nothing
+    is in the way of that.
     """
     problem = spatial_problem_of(mission)
     router = LegRouter(problem, mission)
@@ -132,6 +135,8 @@ def _costs(mission: Mission, places: FlightPlaces, points: Floats) -> Floats:
         if lands and j == len(points) - 1:
             last[2] = max(first[2], last[2])
             down = router.straight_cost(last, points[j])
+            if not proven_upright(problem, straight_span(last, points[j])[None]).holds:
+                down = np.inf
         elif lands and i == len(points) - 1:
             continue  # nobody flies on from there
         outcome = router.between(first, last)
