@@ -410,3 +410,24 @@ def test_a_spline_beside_a_led_leg_is_left_where_it_swings_out() -> None:
         plan = vs.plan(vs.Mission.model_validate(asked))
         taken.append(plan.trajectory.duration)
     assert taken[0] <= taken[1] * (1 + 1e-3)
+
+
+def test_the_shortest_route_has_no_loops_of_the_spline_between_legs_that_are_led() -> None:
+    """Through a hole in a ceiling, to a far corner and back: the spline swung out by 26 m."""
+    ceiling = [
+        {"box": {"min": [-10, -10, 14], "max": [36.3, 60, 14.3]}},
+        {"box": {"min": [38.9, -10, 14], "max": [60, 60, 14.3]}},
+        {"box": {"min": [36.3, -10, 14], "max": [38.9, 16, 14.3]}},
+        {"box": {"min": [36.3, 19.7, 14], "max": [38.9, 60, 14.3]}},
+    ]
+    places = [[16.25, 24.71, 7.59], [0.25, 13.63, 20.18], [48.29, 47.07, 20.78], [12, 12, 12.35]]
+    asked = {
+        "world": {"bounds": [-10, -10, 60, 60], "known": ceiling},
+        "robot": {"radius_m": 0.195, "clearance_m": 0.227, "half_height_m": 0.381},
+        "route": {"start": places[0], "via": places[1:3], "goal": places[3], "optimise": "length"},
+    }
+    plan = vs.plan(vs.Mission.model_validate(asked))
+    taut = [np.linalg.norm(np.diff([places[0], [37.6, 17.8, 14], places[1]], axis=0), axis=1)]
+    taut += [np.linalg.norm(np.diff(places[1:3], axis=0), axis=1)]
+    taut += [np.linalg.norm(np.diff([places[2], [37.6, 17.8, 14], places[3]], axis=0), axis=1)]
+    assert plan.path.length < 1.02 * sum(float(one.sum()) for one in taut)

@@ -47,6 +47,9 @@ NEARLY: Final = 1.2
 LEAST_GAIN: Final = 1e-3
 """Part of the cost of a route that has to be gained by one of these."""
 
+LEAST_SHORTER: Final = 0.02
+"""Part of the length of a route that has to be gained by leaving the spline where it is clear."""
+
 MOST_FEWER: Final = 16
 """So many ways with fewer corners are tried in their route at most."""
 
@@ -210,19 +213,21 @@ class RouteLayer:
     def _laid_sooner(self, found: LedRoute) -> LedRoute:
         """A route with closer turns, or legs that aren't the spline any more, if that is sooner.
 
-        See ``changes``; where the length counts all of them are close.
+        See ``changes``; where the length counts turns are close already.
         """
-        if self.problem.objective == "length" or not found.ways:
+        close = ROOMY * least_radius(self.problem)
+        others = list(changes(found.legs, self.radius, close))
+        if not others:
             return found
+        gain = LEAST_GAIN if self.problem.objective == "time" else LEAST_SHORTER
         cost = cost_of(self.problem)
         best, least = found, cost(found.laid)
-        close = ROOMY * least_radius(self.problem)
-        for change in changes(found.legs, self.radius, close):
+        for change in others:
             try:
                 other = self.laid_anew(change(best.legs), best)
             except StuckLegError:
                 continue
-            if (price := cost(other.laid)) < least * (1 - LEAST_GAIN):
+            if (price := cost(other.laid)) < least * (1 - gain):
                 best, least = other, price
         return best
 

@@ -3,6 +3,8 @@
 A turn at which no speed is lost is a long one: where the way goes back, or is slow for it climbs, a
 close one takes less time. And a spline that goes on from a leg that is led round something swings
 out where it turns: the leg may go straight on between two turns as well.
+
+Tested through ``space/test_plan_spatial``.
 """
 
 from __future__ import annotations
@@ -43,11 +45,11 @@ def changes(
     """
     led = [leg for leg, inner in enumerate(legs.inner) if inner is not None]
     several = 1 < len(led) <= MOST_LEGS
-    for which in [led, *([leg] for leg in led if several)]:
+    for which in [led, *([leg] for leg in led if several)] if led and close < wide else []:
         yield partial(_closer, which=which, radius=close)
     beside = {leg for one in led for leg in (one - 1, one + 1)}
     for leg in sorted(beside.intersection(range(len(legs.inner))).difference(led)):
-        for radius in (wide, close):
+        for radius in (wide, close) if close < wide else (wide,):
             yield partial(_straight, leg=leg, radius=radius)
 
 
