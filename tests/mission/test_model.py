@@ -110,6 +110,12 @@ def lidar(**changes: Any) -> dict[str, Any]:
             "a hole that reaches outside it",
         ),
         ("world.fences.0", [[0, 0], [9, 9], [9, 0], [0, 9]], "world.fences[0]", "crosses itself"),
+        (
+            "world.speed_zones",
+            [{"polygon": [[0, 0], [9, 9], [9, 0], [0, 9]], "max_speed_mps": 1}],
+            "world.speed_zones[0].polygon",
+            "crosses itself",
+        ),
         ("world.bounds", [9, 0, 1, 5], "world.bounds", "x_min 9 is not less than x_max 1"),
         ("world.bounds", [0, 0, 1], "world.bounds", "a list of 3"),
         ("route.start", [50, 1e10], "route.start.at[1]", "not greater than 1000000000"),

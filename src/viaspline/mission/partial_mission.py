@@ -24,7 +24,7 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.space.spatial_parts import SpatialParts
 from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.unplaced_faults import Path, children, list_items, spell
-from viaspline.mission.world_spec import WorldSpec
+from viaspline.mission.world_spec import SpeedZone, WorldSpec
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,7 @@ class PartialMission:
     Attributes:
         bounds: ``x_min, y_min, x_max, y_max`` [m].
         fences: Inclusion polygons.
+        zones: Polygons in which the robot is to be slower.
         known: Obstacles on the map.
         unseen: Obstacles that the sensor has to find.
         robot: None if it is faulty.
@@ -52,6 +53,7 @@ class PartialMission:
 
     bounds: tuple[float, float, float, float] | None = None
     fences: list[tuple[Path, Corners]] = field(default_factory=list)
+    zones: list[tuple[Path, Corners]] = field(default_factory=list)
     known: list[tuple[Path, Obstacle]] = field(default_factory=list)
     unseen: list[tuple[Path, Obstacle]] = field(default_factory=list)
     robot: RobotSpec | None = None
@@ -101,6 +103,7 @@ class PartialMission:
         return cls(
             bounds=world.bounds,
             fences=[(("world", "fences", i), ring) for i, ring in enumerate(world.fences)],
+            zones=_of_zones(enumerate(world.speed_zones), resolved),
             known=_placed(enumerate(world.known), "known", resolved),
             unseen=_placed(enumerate(world.unseen), "unseen", resolved),
             robot=mission.robot,
@@ -134,6 +137,7 @@ class PartialMission:
         return cls(
             bounds=bounds.bounds if bounds is not None else None,
             fences=_placed(_sound(TypeAdapter(Ring), world, "fences"), "fences", resolved),
+            zones=_of_zones(_sound(TypeAdapter(SpeedZone), world, "speed_zones"), resolved),
             known=_placed(_sound(TypeAdapter(Obstacle), world, "known"), "known", resolved),
             unseen=_placed(_sound(TypeAdapter(Obstacle), world, "unseen"), "unseen", resolved),
             robot=_robot(top.get("robot", {})),
@@ -193,6 +197,13 @@ def _sound(adapter: TypeAdapter[Any], world: Any, key: str) -> Iterator[tuple[in
 def _placed(items: Iterable[tuple[int, Any]], key: str, resolved: ResolvedFiles) -> list[Any]:
     """Items of a list under ``world``, each with its path in the mission as it was given."""
     return [(resolved.original(("world", key, i)), value) for i, value in items]
+
+
+def _of_zones(
+    zones: Iterable[tuple[int, SpeedZone]], resolved: ResolvedFiles
+) -> list[tuple[Path, Corners]]:
+    placed = _placed(zones, "speed_zones", resolved)
+    return [((*path, "polygon"), zone.polygon) for path, zone in placed]
 
 
 def obstacle_label(path: Path, obstacle: Obstacle) -> str:

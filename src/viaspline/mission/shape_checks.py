@@ -1,4 +1,4 @@
-"""Has every obstacle one shape, and are shapes and fences such that they cover an area?
+"""Has every obstacle one shape, and do shapes, fences and speed zones cover an area?
 
 Tested through ``mission/test_model``.
 """
@@ -16,7 +16,8 @@ def shape_faults(partial: PartialMission) -> list[UnplacedFault]:
     """Obstacles without a shape or with two, and what is wrong with those that there are."""
     obstacles = partial.known + partial.unseen
     faults = [fault for path, obstacle in obstacles for fault in _one_shape(path, obstacle)]
-    faults += Polygon.faults((path, Polygon(ring)) for path, ring in partial.fences)
+    rings = partial.fences + partial.zones
+    faults += Polygon.faults((path, Polygon(ring)) for path, ring in rings)
     for key, kind in KINDS.items():
         faults += kind.faults(
             ((*path, key), shape)
