@@ -178,6 +178,18 @@ def test_a_lidar_looks_all_round_without_noise_unless_told_otherwise() -> None:
     assert hash(sensor) == hash(Sensor(lidar=Lidar(range_m=5)))
 
 
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("drive", {"differential": {"track_m": 0.5}}), ("localization", {"position_noise_m": 0.1})],
+)
+def test_a_robot_that_is_simulated_in_the_plane_has_no_route_with_heights(
+    key: str, value: Any
+) -> None:
+    route = {"start": [0, 0, 5], "goal": [9, 0, 8]}
+    [fault] = faults_of({"robot": {key: value}, "route": route})
+    assert fault.startswith(f"<mission>: robot.{key}: is for routes in the plane; leave it out")
+
+
 def test_a_mistyped_required_key_is_one_fault(spoiled: Make) -> None:
     data = spoiled("world.known.0.circle", {"centre": [1, 2], "radius": 3})
     assert len(faults_of(data)) == 1

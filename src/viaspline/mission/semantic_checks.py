@@ -62,7 +62,7 @@ def route_faults(partial: PartialMission) -> tuple[list[UnplacedFault], bool]:
     points = [(path, point.name) for path, point in partial.points if point is not None]
     faults = [*_repeated(points, "point"), *_route(partial)]
     if partial.space is None:
-        faults += [*_same_places(partial), *_dimensions(partial)]
+        faults += [*_same_places(partial), *_dimensions(partial), *_heights(partial)]
     if partial.spline is not None:
         faults += _spline(partial, partial.spline)
     strange = corridor_faults(partial)
@@ -223,6 +223,22 @@ def _dimensions(partial: PartialMission) -> list[UnplacedFault]:
         )
         for path, point in sound
         if len(point.at) != usual
+    ]
+
+
+def _heights(partial: PartialMission) -> list[UnplacedFault]:
+    """Keys of a robot that is simulated in the plane, where points of the route have heights."""
+    if not any(point is not None and len(point.at) == 3 for _, point in partial.points):
+        return []
+    return [
+        UnplacedFault(
+            (*partial.robot_path, key),
+            "is for routes in the plane",
+            "leave it out, or the heights of the route's points",
+            at_key=True,
+        )
+        for key in ("drive", "localization")
+        if partial.robot is not None and getattr(partial.robot, key) is not None
     ]
 
 
