@@ -266,9 +266,11 @@ def _tensions(
     path: Path = ("spline", key)
     is_contradictory = partial.closed is None or (partial.closed and partial.has_goal)
     if isinstance(values, tuple) and partial.has_route and not is_contradictory:
-        spans = len(partial.points) - (0 if partial.closed else 1)
+        lands = partial.space is not None and partial.space.has_land and not partial.has_goal
+        spans = len(partial.points) - (0 if partial.closed or lands else 1)
         if len(values) != spans and spans > 0:
-            problem = f"has {len(values)} values for {spans} {'span' if spans == 1 else 'spans'}"
+            given = f"{len(values)} {'value' if len(values) == 1 else 'values'}"
+            problem = f"has {given} for {spans} {'span' if spans == 1 else 'spans'}"
             remedy = "give one number for all, or one for each span between points of the route"
             faults.append(UnplacedFault(path, problem, remedy))
     for i, value in enumerate(values if isinstance(values, tuple) else (values,)):

@@ -12,6 +12,7 @@ from viaspline.errors import MissionError
 from viaspline.formats.load import load
 from viaspline.maps.terrain import Terrain
 from viaspline.mission.model import Mission
+from viaspline.plan_mission import plan
 from viaspline.report.summary import summary
 
 FAR = np.abs(np.arange(-50.0, 51.0, 5.0))
@@ -301,3 +302,19 @@ def test_the_mission_of_the_documentation_is_sound(tmp_path: Path) -> None:
     told = dict(summary(mission))
     assert "555.0 m from point to point, z 0.2 m to 20 m, takes off, lands" in told["route"]
     assert "flat ground at 0 m, altitude from 5 m up to 120 m above home" in told["world"]
+
+
+@pytest.mark.parametrize("via", [[], [[10, 3, 9]]])
+@pytest.mark.parametrize("end", [{"goal": [20, 0, 5]}, {"land": {"at": [20, 0]}}])
+def test_a_leg_to_where_it_lands_has_a_tension_as_one_to_a_goal_has(
+    via: list[Any], end: dict[str, Any]
+) -> None:
+    data: dict[str, Any] = {"route": {"start": [0, 0, 5], "via": via, **end}}
+    legs = len(via) + 1
+    for count in (1, 2, 3):
+        data["spline"] = {"tension": [0.1] * count}
+        if count == legs:
+            assert plan(Mission.model_validate(data)).certificate.holds
+            continue
+        with pytest.raises(MissionError, match=f"has {count} values? for {legs} span"):
+            Mission.model_validate(data)
