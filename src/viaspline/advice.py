@@ -127,6 +127,11 @@ def advise_tension(
         False
     """
     check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
+    if mission.is_spatial:
+        raise GeometryError(
+            "a tension is advised for a mission in the plane, and this one has heights; in space "
+            "spline: {tension: auto} takes the soonest of a few"
+        )
     tried = _checked(tensions)
     if world is None:
         mission, world = in_order(mission)

@@ -146,6 +146,7 @@ def test_options_of_one_kind_of_file_are_refused_with_the_other(
         (("plan", fleet, "--workers", 0), "is not in the range"),
         (("run", fleet, "--workers", 2, "--scheduler", "tcp://a:1"), "not both"),
         (("tension", fleet), "this is a fleet"),
+        (("tension", high), "for a mission in the plane"),
         (("run", fleet, "--real-time"), "--real-time is for one robot in the plane"),
         (("run", fleet, "--bag", "a.mcap"), "this mission is one of a fleet"),
         (("run", high, "--real-time"), "this mission is one in space"),

@@ -40,6 +40,11 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
 
     if not isinstance(asked, Mission):
         raise click.UsageError("a tension is advised for the mission of one robot; this is a fleet")
+    if asked.is_spatial:
+        raise click.UsageError(
+            "a tension is advised for a mission in the plane; in space spline: {tension: auto} "
+            "takes the soonest of a few"
+        )
     with (
         result_folder(out or default_folder(mission), ("tension.png",)) as folder,
         progress_bar(quiet, asked) as watch,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from viaspline.mission.model import Mission
 from viaspline.space.among.plan_past_moving import plan_past_moving
+from viaspline.space.soonest_tension import by_soonest_tension
 from viaspline.space.spatial_order import ordered_in_space
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
@@ -23,6 +24,13 @@ def plan_spatial(mission: Mission) -> SpatialPlan:
         GeometryError: When it asks for something that isn't planned in space.
     """
     mission = ordered_in_space(mission)
+    if mission.spline.tension == "auto":
+        return by_soonest_tension(mission, _planned)
+    return _planned(mission)
+
+
+def _planned(mission: Mission) -> SpatialPlan:
+    """The plan of a mission that leaves nothing open but its path and its law."""
     plan = static_plan(mission)
     return plan_past_moving(plan) if mission.world.moving else plan
 

@@ -90,6 +90,18 @@ def test_the_plan_of_a_mission_in_space_is_that_of_the_command_line(
     assert answer["space"]["band"] == [2, 60, None, None]
 
 
+def test_a_tension_that_is_left_to_the_planner_is_that_of_the_command_line(
+    start: Start, file: Path
+) -> None:
+    file.write_text(f"{TEXT}spline: {{tension: auto}}\n")
+    plan = planned(file)
+    assert plan.mission.spline.tension != "auto"
+    with start(file).client() as client:
+        answer = whole(client, client.edit())
+    assert answer["ok"]
+    assert answer["space"]["spans"] == np.asarray(plan.path.spans).ravel().tolist()
+
+
 def test_a_cheapest_way_comes_first_and_then_the_best_of_all_weighed(
     start: Start, file: Path
 ) -> None:

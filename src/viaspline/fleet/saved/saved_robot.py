@@ -97,7 +97,7 @@ class SavedRobots:
 
     def _flight(self, member: FleetMember, file: PlanFile) -> SpatialPlan:
         """The plan of one robot in space."""
-        mission = ordered_in_space(member.mission)
+        mission = _with_told_tension(ordered_in_space(member.mission), file)
         if mission.route.is_patrol:
             found = flight_as_if_still(
                 file, self._with_laps(mission, member.name), flown_stops_on_laps,
@@ -127,12 +127,18 @@ class SavedRobots:
         if own is not None and (radius := file.number("mission", "turn_radius_m")) > own:
             robot = mission.robot.model_copy(update={"min_turn_radius_m": radius})
             mission = mission.model_copy(update={"robot": robot})
-        if mission.spline.tension == "auto":
-            said = file.numbers("mission", "tension").tolist()
-            tension = tuple(said) if isinstance(said, list) else said
-            spline = mission.spline.model_copy(update={"tension": tension, "slack": None})
-            mission = mission.model_copy(update={"spline": spline})
+        mission = _with_told_tension(mission, file)
         return self._with_laps(mission, member.name) if mission.route.is_patrol else mission
+
+
+def _with_told_tension(mission: Mission, file: PlanFile) -> Mission:
+    """A mission with the tension that it was planned with, if it left that to the planner."""
+    if mission.spline.tension != "auto":
+        return mission
+    said = file.numbers("mission", "tension").tolist()
+    tension = tuple(said) if isinstance(said, list) else said
+    spline = mission.spline.model_copy(update={"tension": tension, "slack": None})
+    return mission.model_copy(update={"spline": spline})
 
 
 def fleet_beside(file: Path, name: str) -> Path:

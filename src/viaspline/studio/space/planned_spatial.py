@@ -17,7 +17,7 @@ from viaspline.errors import GaveUpError, MissionError, PlanningError, Viaspline
 from viaspline.mission.model import Mission
 from viaspline.mission.world_spec import WorldSpec
 from viaspline.space.leg_router import LegRouter
-from viaspline.space.plan_spatial import plan_by
+from viaspline.space.plan_spatial import plan_by, plan_spatial
 from viaspline.space.spatial_order import ordered_in_space
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
@@ -104,6 +104,8 @@ _Planning = Callable[[Mission, SpatialProblem, KnownWays], "tuple[SpatialPlan, K
 def _soon(
     mission: Mission, problem: SpatialProblem, known: KnownWays
 ) -> tuple[SpatialPlan, KnownWays, bool]:
+    if mission.spline.tension == "auto":
+        return _soon_by_any_tension(mission, known)
     ways = CheapestWays(LegRouter(problem, mission), known)
     try:
         return plan_by(mission, problem, ways), ways.known, not ways.alone
@@ -113,9 +115,19 @@ def _soon(
         return _whole(mission, problem, known)  # another way may be one that can be laid
 
 
+def _soon_by_any_tension(mission: Mission, known: KnownWays) -> tuple[SpatialPlan, KnownWays, bool]:
+    """As ``_soon`` with a tension of 0, where it is left to the planner: that takes whole plans."""
+    spline = mission.spline.model_copy(update={"tension": 0.0})
+    stated = mission.model_copy(update={"spline": spline})
+    plan, ways, _ = _soon(stated, spatial_problem_of(stated), known)
+    return plan, ways, False
+
+
 def _whole(
     mission: Mission, problem: SpatialProblem, known: KnownWays
 ) -> tuple[SpatialPlan, KnownWays, bool]:
+    if mission.spline.tension == "auto":
+        return plan_spatial(mission), known, True
     ways = RememberedWays(LegRouter(problem, mission), known)
     return plan_by(mission, problem, ways), ways.known, True
 
