@@ -171,6 +171,41 @@ def test_items_that_stay_where_the_vehicle_is_are_no_points_of_their_own(tmp_pat
     assert mission.route.takeoff.to_agl_m == 20
 
 
+def test_a_take_off_stays_as_long_as_what_is_asked_for_where_it_ends(tmp_path: Path) -> None:
+    hold = item(None, 3, 12)
+    hold["params"][0] = 4
+    delay = item(None, 2, 0, command=93)
+    delay["params"][0] = 5
+    off = [item(None, 3, 12, command=22), delay, hold]
+    file = plan(tmp_path, *off, item(NORTH, 3, 30), item(NORTH + 0.001, 3, 30))
+    route = quietly(file, ground={"flat_m": 0}).route
+    assert (route.start.dwell_s, len(route.via)) == (9, 1)
+
+
+@pytest.mark.parametrize(
+    ("items", "told"),
+    [
+        ([item(None, 2, 0, command=93, params=[5, 0, 0, 0, 0, 0, 0])], "delay before it flies"),
+        (
+            [
+                item(NORTH, 3, 5, command=195),
+                item(47.003, 3, 20),
+                item(47.002, 3, 5, command=195),
+                item(47.003, 3, 20),
+            ],
+            "looks elsewhere from the same place",
+        ),
+        ([item(None, 3, 0, command=195)], "without a place on earth"),
+    ],
+)
+def test_what_a_flight_cannot_have_is_told(
+    tmp_path: Path, items: list[dict[str, Any]], told: str
+) -> None:
+    file = plan(tmp_path, *items, item(NORTH, 3, 30), item(NORTH + 0.001, 3, 30))
+    with pytest.warns(MissionWarning, match=told):
+        load(file, ground={"flat_m": 0})
+
+
 def test_without_take_off_it_begins_in_the_air(tmp_path: Path) -> None:
     file = plan(tmp_path, item(NORTH, 3, 30), item(NORTH + 0.001, 3, 30))
     route = quietly(file, ground={"flat_m": 0}).route
@@ -218,7 +253,9 @@ def flown(seed: int) -> Mission:
         via.append(point)
     route: dict[str, Any] = {"via": via}
     if rng.random() < 0.6:
-        route |= {"start": [0, 0], "takeoff": {"to_agl_m": 15}}
+        stays = {"dwell_s": 4} if rng.random() < 0.5 else {}
+        looks = {"look_at": [20, 30, ground["flat_m"]]} if rng.random() < 0.5 else {}
+        route |= {"start": {"at": [0, 0], **stays, **looks}, "takeoff": {"to_agl_m": 15}}
     else:
         route["start"] = [0, 0, ground["flat_m"] + 12.5]
     if rng.random() < 0.6:

@@ -73,7 +73,7 @@ NAMES: Final[dict[int, str]] = {
     189: "start of landing",
     191: "go-around",
     195: "region of interest",
-    196: "region of interest",
+    196: "region of interest at the next way point",
     197: "end of region of interest",
     200: "camera control",
     201: "region of interest",

@@ -26,6 +26,10 @@ _FLOWN: Final = frozenset(
     {OVER_TERRAIN, OVER_SEA, NO_HOME_ALTITUDE, "region of interest", "end of region of interest"}
 )
 
+ON_THE_GROUND: Final = "delay before it flies: left out"
+
+SECOND_LOOK: Final = "looks elsewhere from the same place: left out"
+
 
 _Placed: TypeAlias = tuple[Stop, tuple[float, float]]
 """A stop and its place in the plane [m]."""
@@ -37,10 +41,12 @@ class FlownRoute(NamedTuple):
     Attributes:
         route: As a mission has it.
         stops: Where its points stand in the file: start, via points, and the goal or the landing.
+        notes: What of the stops a route can't have, by kind: where.
     """
 
     route: dict[str, Any]
     stops: tuple[Stop, ...]
+    notes: tuple[tuple[str, str], ...]
 
 
 def not_flown(notes: Sequence[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
@@ -94,48 +100,57 @@ def route_in_space(stops: Sequence[Stop], frame: LocalFrame, ground: GroundSpec)
     places = [(x + 0.0, y + 0.0) for x, y in local]
     home = ground_height(ground, *places[0])
     left = list(zip(stops, places, strict=True))
+    notes = [(ON_THE_GROUND, stops[0].place.key)] if stops[0].is_home and stops[0].dwell else []
     route: dict[str, Any] = {}
     above: list[_Placed] = []
     if len(left) > 1 and left[1][0].is_takeoff and math.dist(places[0], places[1]) < SAME_PLACE_M:
         above = [left.pop(1)]
-        route["takeoff"] = {"to_agl_m": _above_ground(above[0][0], home)}
-        start: dict[str, Any] = {"at": places[0]}
         behind = left[1:]
     else:
         behind = left[1:] if left[0][0].is_home else left
-        start = {}
     landing = behind.pop() if behind and behind[-1][0].is_landing else None
-    behind = _without_repeats([*above, *behind], home, ground)[len(above) :]
+    kept, repeats = _without_repeats([*above, *behind], home, ground)
+    top, behind = kept[: len(above)], kept[len(above) :]
     points = [_point(stop, at, home, frame, ground) for stop, at in behind]
     told = [stop for stop, _ in behind]
-    if start:
-        told = [stops[0], *told]
+    for stop, at in top:
+        route["takeoff"] = {"to_agl_m": _above_ground(stop, home)}
+        # It stays, and looks at something, where its climb ends.
+        start = {**_point(stop, at, home, frame, ground), "at": places[0]}
+        start.pop("agl_m", None)
         points = [start, *points]
+        told = [stops[0], *told]
     if landing is not None:
         route["land"] = {"at": landing[1]}
         told = [*told, landing[0]]
     elif len(points) > 1:
         route["goal"] = points.pop()
     route |= {"start": points[0] if points else {"at": places[0]}, "via": points[1:]}
-    return FlownRoute(route, tuple(told))
+    return FlownRoute(route, tuple(told), (*notes, *repeats))
 
 
-def _without_repeats(placed: Sequence[_Placed], home: float, ground: GroundSpec) -> list[_Placed]:
+def _without_repeats(
+    placed: Sequence[_Placed], home: float, ground: GroundSpec
+) -> tuple[list[_Placed], list[tuple[str, str]]]:
     """Stops in a row at one place in the air as one, which stays as long as all of them.
 
-    A take-off stays nowhere, so one that does behind it is kept, and is told.
+    It looks where the first one of them does; that others look elsewhere is noted.
     """
     kept: list[_Placed] = []
+    elsewhere: list[str] = []
     last = (math.nan, math.nan, math.nan)
     for stop, at in placed:
         here = (*at, _altitude(stop, at, home, ground))
-        if not math.dist(here, last) < SAME_PLACE_M or (kept[-1][0].is_takeoff and stop.dwell):
+        if not math.dist(here, last) < SAME_PLACE_M:
             kept.append((stop, at))
             last = here
-        else:
-            before, where = kept[-1]
-            kept[-1] = (replace(before, dwell=before.dwell + stop.dwell), where)
-    return kept
+            continue
+        before, where = kept[-1]
+        look_at = before.look_at if before.look_at is not None else stop.look_at
+        if stop.look_at is not None and stop.look_at != look_at:
+            elsewhere.append(stop.place.key)
+        kept[-1] = (replace(before, dwell=before.dwell + stop.dwell, look_at=look_at), where)
+    return kept, [(SECOND_LOOK, ", ".join(elsewhere))] if elsewhere else []
 
 
 def _altitude(stop: Stop, at: tuple[float, float], home: float, ground: GroundSpec) -> float:

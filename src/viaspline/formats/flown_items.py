@@ -64,16 +64,20 @@ def flown_items(mission: Mission) -> Iterator[FlownItem]:
     route, ground = mission.route, mission.world.ground
     places = flight_places(mission)
     x, y, _ = places.start
-    if route.takeoff is not None:
-        params = (0.0, 0.0, 0.0, math.nan)
-        yield FlownItem(TAKEOFF, OVER_HOME, params, (x, y), route.takeoff.to_agl_m, "route.takeoff")
     looked_at: Place3 | None = None
     for key, point in route.points():
-        if route.takeoff is not None and key == "route.start":
-            continue
         if point.look_at != looked_at:
             looked_at = point.look_at
             yield _look(looked_at, places.home, key)
+        if route.takeoff is not None and key == "route.start":
+            height = route.takeoff.to_agl_m
+            params = (0.0, 0.0, 0.0, math.nan)
+            yield FlownItem(TAKEOFF, OVER_HOME, params, (x, y), height, "route.takeoff")
+            if point.dwell_s:
+                # It stays where its climb ends.
+                params = (point.dwell_s, 0.0, 0.0, math.nan)
+                yield FlownItem(WAYPOINT, OVER_HOME, params, (x, y), height, key)
+            continue
         yield _way_point(point, place_of(point, ground), places.home, key)
     if route.closed:
         start = place_of(route.start, ground)

@@ -77,6 +77,7 @@ def _in_space(
     ground = ground_of(itinerary)
     check_known_heights(itinerary.source, stops, frame, ground)
     flown = route_in_space(stops, frame, ground)
+    _warn(itinerary.source, flown.notes)
     return _mission(itinerary, frame, flown.route, flown.stops, areas, {"ground": ground})
 
 

@@ -125,8 +125,8 @@ def stops_of(itinerary: Itinerary) -> tuple[tuple[Stop, ...], tuple[tuple[str, s
                 _rest(itinerary.items[i + 1 :], "after the unlimited loiter", log)
                 break
         else:
-            if item.command in LOOKS_AT and item.has_position:
-                looked_at = item
+            if item.command in LOOKS_AT:
+                looked_at = item if item.has_position else None
             elif item.command == LOOKS_AHEAD:
                 looked_at = None
             log.note(_kind(item), item)
@@ -219,6 +219,8 @@ def _kind(item: Item) -> str:
     name = command_name(item.command)
     if item.command == 177:
         return "jump: the way is driven once"
+    if item.command in LOOKS_AT and not item.has_position:
+        return f"{name} without a place on earth: looks ahead from there on"
     if item.command == CHANGE_SPEED:
         return "change of speed: robot.max_speed_mps holds for the whole way"
     return name
