@@ -7,6 +7,7 @@ import pickle
 import tempfile
 from contextlib import suppress
 from copy import deepcopy
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import viaspline as vs
+from viaspline.curve.certificate import Certificate
 from viaspline.errors import GaveUpError, NoPathError
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.ledger import Candidate
@@ -257,6 +259,18 @@ def test_a_drone_lands_right_under_where_it_is(
 ROOF = {"name": "roof", "box": {"min": [15, -3, 5], "max": [25, 3, 6]}}
 
 
+def test_a_station_right_over_its_landing_is_stayed_at() -> None:
+    """As in files of way points, whose last one is where the vehicle lands."""
+    last: dict[str, object] = {"at": [60, 10, 30]}
+    route = {"start": [0, 0, 20], "via": [[30, 0, 20], last], "land": {"at": [60, 10]}}
+    asked = {"world": {"ground": {"flat_m": 0}}, "route": route}
+    soon = vs.plan(Mission.model_validate(asked)).trajectory
+    last["dwell_s"] = 7
+    late = vs.plan(Mission.model_validate(asked)).trajectory
+    assert late.duration - soon.duration == pytest.approx(7)
+    assert [(stop.dwell, stop.name) for stop in late.stations] == [(7, "via 2")]
+
+
 HIGH: dict[str, object] = {"start": [0, 0, 9], "via": [[10, 0, 9]]}
 
 
@@ -278,6 +292,22 @@ def test_no_landing_leads_through_a_roof(
         vs.plan(Mission.model_validate({**asked, "route": {**route, "land": {"at": at}}}))
     beside = {**route, "land": {"at": [20, 9]}}
     assert vs.plan(Mission.model_validate({**asked, "route": beside})).certificate.holds
+
+
+def test_a_flight_that_is_not_proven_as_a_whole_is_no_blocked_descent(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    proof = LegCheck.proof
+
+    def of_one_leg(check: LegCheck, spans: Floats) -> Certificate:
+        found = proof(check, spans)
+        return found if len(spans) == 1 else replace(found, clearance=0.1)
+
+    monkeypatch.setattr(LegCheck, "proof", of_one_leg)
+    route = {"start": [0, 0, 9], "via": [[10, 0, 9]], "land": {"at": [20, 0]}}
+    known = [{"ball": {"center": [10, 30, 9], "radius": 1}, "name": "balloon"}]
+    with pytest.raises(GaveUpError, match=r"the best curve .* within 0\.1 m of 'balloon'"):
+        vs.plan(Mission.model_validate({"world": {"known": known}, "route": route}))
 
 
 def test_a_landing_under_a_roof_is_flown_from_under_it() -> None:

@@ -21,6 +21,9 @@ from viaspline.trajectory.trajectory import Trajectory
 TAKE_OFF, LANDING = "take-off", "landing"
 """What the places on the ground are called."""
 
+SAME_STOP_M = 1e-9
+"""Stops no farther apart along the path are one."""
+
 
 def headings_of(problem: SpatialProblem, path: Path) -> YawProfile:
     """Where the body looks along a path."""
@@ -36,10 +39,23 @@ def headings_of(problem: SpatialProblem, path: Path) -> YawProfile:
 
 
 def stops_of(problem: SpatialProblem, path: Path) -> Iterator[Station]:
-    """Where the robot hovers: its stations, and the tops of take-off and landing."""
+    """Where the robot hovers: its stations, and the tops of take-off and landing.
+
+    A station right over the landing, or where the climb ends, is one stop with that.
+    """
+    last: Station | None = None
     for via, distance in zip(path.vias, path.via_distances.tolist(), strict=True):
-        if via.dwell > 0.0 or via.name in (TAKE_OFF, LANDING):
-            yield Station(distance, via.dwell, via.name)
+        if not (via.dwell > 0.0 or via.name in (TAKE_OFF, LANDING)):
+            continue
+        if last is not None and distance - last.distance <= SAME_STOP_M:
+            name = last.name if last.dwell > 0.0 else via.name
+            last = Station(last.distance, last.dwell + via.dwell, name)
+            continue
+        if last is not None:
+            yield last
+        last = Station(distance, via.dwell, via.name)
+    if last is not None:
+        yield last
 
 
 def part_of_route(problem: SpatialProblem, spans: Floats, first: int, joints: list[int]) -> Path:
