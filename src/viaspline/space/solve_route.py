@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial
+from typing import Final
 
 import numpy as np
 
@@ -35,6 +36,14 @@ from viaspline.space.weighed_ways import (
     least_radius,
 )
 from viaspline.space.without_ground import without_ground
+
+FLIGHT, CLIMB, DESCENT = "flight", "climb of take-off", "descent to the landing"
+"""The parts of a path."""
+
+_UPRIGHT_REMEDIES: Final = {
+    CLIMB: "begin where the sky is free",
+    DESCENT: "land where the sky is free, or come from a lower place",
+}
 
 
 def solve_route(
@@ -70,9 +79,10 @@ def solve_route(
     )  # fmt: skip
     found = turns.best_of(routes)
     path, airborne = _whole_path(problem, found)
-    proof = whole_proof(problem, path, airborne, layer.check.proof)
+    proofs = part_proofs(problem, path, airborne, layer.check.proof)
+    part, proof = min(proofs.items(), key=lambda each: each[1].clearance)
     if not proof.holds:
-        raise _upright_leg_blocked(problem, proof, airborne)
+        raise _not_clear(problem, proof, part, path)
     return SpatialSolution(path, proof, layer.account(found), airborne)
 
 
@@ -106,26 +116,31 @@ def _gave_up(problem: SpatialProblem, stuck: StuckLegError) -> GaveUpError:
     )
 
 
-def _upright_leg_blocked(
-    problem: SpatialProblem, proof: Certificate, airborne: tuple[float, float]
-) -> NoPathError:
-    """That there is something in the way straight up or down, where there is no other way.
+def _not_clear(
+    problem: SpatialProblem, proof: Certificate, part: str, path: Path
+) -> NoPathError | GaveUpError:
+    """That a part of the path isn't proven clear.
 
-    What is airborne was laid clear; where via points are served in an order that was found, it
-    isn't known before from where the robot comes down.
+    Straight up or down there is no other way; where via points are served in an order that was
+    found, it isn't known before from where the robot comes down.
     """
-    is_climb = proof.tightest_distance <= airborne[0]
-    which, remedy = (
-        ("climb of take-off", "begin where the sky is free")
-        if is_climb
-        else ("descent to the landing", "land where the sky is free, or come from a lower place")
-    )
     name = proof.obstacle or "an obstacle"
-    return NoPathError(
-        f"the {which} comes within {max(proof.clearance, 0.0):.3g} m of '{name}', and "
-        f"{problem.clearance:g} m are to be kept",
+    kept = f"{problem.clearance:g} m are to be kept"
+    near = f"comes within {max(proof.clearance, 0.0):.3g} m of '{name}', and {kept}"
+    if part != FLIGHT:
+        return NoPathError(
+            f"the {part} {near}",
+            where=proof.tightest_at,
+            remedy=_UPRIGHT_REMEDIES[part],
+            obstacles=(name,),
+        )
+    ahead = [via.name for via, distance in path.stops if distance > proof.tightest_distance]
+    return GaveUpError(
+        f"the best curve that was found {near}",
         where=proof.tightest_at,
-        remedy=remedy,
+        remedy="give the route a via point beside it, or ask for less clearance",
+        tried=("all legs, each of which was clear alone",),
+        via=ahead[0] if ahead else problem.vias[-1].name,
         obstacles=(name,),
     )
 
@@ -196,13 +211,22 @@ Prove = Callable[[Floats], Certificate]
 """From the spans of a curve (m, 4, 3) [m] to what is proven of its clearance."""
 
 
-def whole_proof(
-    problem: SpatialProblem,
-    path: Path,
-    airborne: tuple[float, float],
-    prove: Prove | None = None,
-) -> Certificate:
+def whole_proof(problem: SpatialProblem, path: Path, airborne: tuple[float, float]) -> Certificate:
     """What is proven of the whole path; on upright legs the ground doesn't count.
+
+    Args:
+        problem: Whose path it is.
+        path: It.
+        airborne: From where to where it flies [m].
+    """
+    proofs = part_proofs(problem, path, airborne, partial(proven, problem))
+    return min(proofs.values(), key=lambda proof: proof.clearance)
+
+
+def part_proofs(
+    problem: SpatialProblem, path: Path, airborne: tuple[float, float], prove: Prove
+) -> dict[str, Certificate]:
+    """What is proven of each part of the path, by what the part is called.
 
     Args:
         problem: Whose path it is.
@@ -210,14 +234,13 @@ def whole_proof(
         airborne: From where to where it flies [m].
         prove: Of that part; what is known already of such a curve isn't proven again.
     """
-    parts = [(*airborne, prove or partial(proven, problem))]
+    proofs = {FLIGHT: _proof(path, *airborne, prove)}
     upright = partial(proven_upright, problem)
     if problem.takeoff is not None:
-        parts.append((0.0, airborne[0], upright))
+        proofs[CLIMB] = _proof(path, 0.0, airborne[0], upright)
     if problem.landing is not None:
-        parts.append((airborne[1], path.length, upright))
-    proofs = [_proof(path, first, last, proves) for first, last, proves in parts]
-    return min(proofs, key=lambda proof: proof.clearance)
+        proofs[DESCENT] = _proof(path, airborne[1], path.length, upright)
+    return proofs
 
 
 def proven_upright(problem: SpatialProblem, spans: Floats) -> Certificate:
