@@ -16,8 +16,8 @@ def via_directions(vias: Floats, inner: Sequence[Inner], given: Floats) -> Float
     """Directions at the via points that end or begin a leg that isn't left to the spline.
 
     That of the cardinal spline through the neighbours, detour via points included: of the parabola
-    through three points with chordal knots, :math:`h_1 d_0 + h_0 d_1`. At an end of the route, and
-    where the way turns right back, it is free.
+    through three points with chordal knots, :math:`h_1 d_0 + h_0 d_1`, but never against the way
+    there or on. At an end of the route, and where the way turns right back, it is free.
 
     Args:
         vias: The via points [m], shape (n, d).
@@ -45,11 +45,18 @@ def via_directions(vias: Floats, inner: Sequence[Inner], given: Floats) -> Float
 
 
 def _parabolic(back: Floats, on: Floats) -> Floats:
-    """The direction in the middle of three points from the ways to it and from it."""
-    h0, h1 = np.linalg.norm(back), np.linalg.norm(on)
+    """The direction in the middle of three points from the ways to it and from it.
+
+    Where the way nearly goes back, that of the parabola is against the longer one of both: the
+    curve would run past the middle and come back to it. It is square to that at most.
+    """
+    h0, h1 = float(np.linalg.norm(back)), float(np.linalg.norm(on))
     if h0 == 0.0 or h1 == 0.0:
         return np.full_like(back, np.nan)
-    way = h1 * back / h0 + h0 * on / h1
+    cosine = float(back @ on) / (h0 * h1)
+    first = max(h1, -cosine * h0)
+    last = max(h0, -cosine * h1)
+    way = first * back / h0 + last * on / h1
     size = np.linalg.norm(way)
     if size <= 1e-6 * (h0 + h1):
         return np.full_like(back, np.nan)
