@@ -11,7 +11,9 @@ FREE = np.full((4, 3), np.nan)
 def test_the_direction_at_a_via_point_is_that_of_the_cardinal_spline_through_its_neighbours() -> (
     None
 ):
-    vias = np.random.default_rng(3).normal(0, 10, (4, 3)) + 30 * np.eye(3)[0] * np.arange(4)[:, None]
+    vias = (
+        np.random.default_rng(3).normal(0, 10, (4, 3)) + 30 * np.eye(3)[0] * np.arange(4)[:, None]
+    )
     ways = via_directions(vias, [None, np.empty((0, 3)), None], FREE)
     spline = CardinalSpline(vias, knots="chordal")
     assert np.isnan(ways[[0, 3]]).all()
