@@ -154,3 +154,26 @@ def test_who_gets_on_by_hairs_stands_and_gives_up(
     assert run.reason.startswith(FROZEN)
     assert run.path.length < 0.1
     assert run.duration < 61.0
+
+
+def test_who_waits_for_gaps_in_between_is_frozen_all_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It stood for ever: each wait for what went to and fro before it began its patience anew."""
+
+    def nothing(asked: certified_stop.StopAsked) -> Trajectory:
+        here, speed, _ = (float(value) for value in asked.upper.state_at(asked.now))
+        return braking(here, speed, asked.limits[1], asked.now)
+
+    def half_the_time(law: Trajectory, now: float) -> float:
+        return now + 9.0 if now % 10.0 < 5.0 else now
+
+    monkeypatch.setattr(stoppable, "certified_stop", nothing)
+    monkeypatch.setattr(stoppable, "_stands_until", half_the_time)
+    data = among(0, "passive").model_dump(by_alias=True, exclude_defaults=True)
+    data["world"] = {}
+    run = vs.simulate(vs.Mission.model_validate(data), step=0.5)
+    assert run.reason is not None
+    assert run.reason.startswith(FROZEN)
+    assert run.path.length < 0.1
+    assert run.duration == pytest.approx(2.0 * stoppable.MAX_FROZEN_S, abs=10.0)

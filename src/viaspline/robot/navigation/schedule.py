@@ -96,7 +96,8 @@ class Schedule:
         next_way: Which of the ways past what moves is tried next; 0: all were, or none.
         frozen_since: Since when it stands and no step of it is proven to be safe from what may
             come, or meant none [s]; inf if it doesn't.
-        frozen_at: How far it had driven then [m]; inf if it doesn't.
+        frozen_at: How far it had driven when it first stood so [m]; inf if it has come on since.
+        frozen_before: For how long it had stood so since then, before it waited for a gap [s].
         waits_for_gap: Whether it stands until what crosses is gone, by a law that goes on then.
         held_up: Set while it stands and knows no way on past what moves.
         proven: The last law from all of which it was proven to stand before anything touches it.
@@ -126,6 +127,7 @@ class Schedule:
     next_way: int = 0
     frozen_since: float = math.inf
     frozen_at: float = math.inf
+    frozen_before: float = 0.0
     waits_for_gap: bool = False
     held_up: HeldUp | None = None
     proven: Trajectory | None = None

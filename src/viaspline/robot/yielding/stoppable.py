@@ -94,7 +94,7 @@ def stoppable(
     leaves = now if progress.controller else _stands_until(meant.trajectory, now)
     if leaves > now + task.reaction:
         stop = braking(progress.distance, 0.0, brake, now)
-        return replace(_freed(meant), trajectory=stop, gives_way=True, waits_for_gap=True)
+        return replace(_waiting(meant, now), trajectory=stop, gives_way=True, waits_for_gap=True)
     keep = kept_to_what_comes(task)
     upper = _in_even_pieces(meant.trajectory, leaves, brake)
     hold = STAY_S if meant.is_round else task.mission.route.hold_s
@@ -134,7 +134,15 @@ def _staying(task: DriveTask, progress: Progress, schedule: Schedule) -> Schedul
 
 def _freed(schedule: Schedule) -> Schedule:
     """The schedule of a robot that stands because it means to."""
-    return replace(schedule, frozen_since=math.inf, frozen_at=math.inf)
+    return replace(schedule, frozen_since=math.inf, frozen_at=math.inf, frozen_before=0.0)
+
+
+def _waiting(schedule: Schedule, now: float) -> Schedule:
+    """The schedule of a robot that waits for a gap: it isn't frozen then, but comes no farther."""
+    if schedule.frozen_since == math.inf:
+        return schedule
+    before = schedule.frozen_before + now - schedule.frozen_since
+    return replace(schedule, frozen_since=math.inf, frozen_before=before)
 
 
 def _patient(
@@ -143,6 +151,7 @@ def _patient(
     """The schedule of a robot that doesn't stand for ever where nothing is proven to be safe.
 
     It has stood since it was last on its way: not only while it would go if nothing could come.
+    What it waits for a gap in between doesn't count, nor does it begin anew then.
 
     Args:
         robot: The robot.
@@ -151,13 +160,13 @@ def _patient(
         now: [s].
         is_frozen: Whether no step of it is proven now.
     """
-    since, at = schedule.frozen_since, schedule.frozen_at
-    if schedule.driven + here > at + max(FREED_M, FREED_SHARE * robot.max_speed_mps * MAX_FROZEN_S):
-        since, at = math.inf, math.inf
-    if is_frozen and since == math.inf:
-        since, at = now, schedule.driven + here
-    schedule = replace(schedule, frozen_since=since, frozen_at=at)
-    if not is_frozen or now - since < MAX_FROZEN_S:
+    driven = schedule.driven + here
+    if driven > schedule.frozen_at + max(FREED_M, FREED_SHARE * robot.max_speed_mps * MAX_FROZEN_S):
+        schedule = _freed(schedule)
+    if is_frozen and schedule.frozen_since == math.inf:
+        at = min(schedule.frozen_at, driven)
+        schedule = replace(schedule, frozen_since=now, frozen_at=at)
+    if not is_frozen or schedule.frozen_before + now - schedule.frozen_since < MAX_FROZEN_S:
         return schedule
     reason = FROZEN if robot.sensor is not None else FROZEN + UNSEEING
     return replace(schedule, giving_up=reason, pending=None)
