@@ -16,7 +16,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.trajectory.limits import Limits, Station
-from viaspline.trajectory.moving_certificate import certify_moving
+from viaspline.trajectory.moving_certificate import certify_moving, keeps_from_moving
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -251,6 +251,28 @@ def test_a_polygonal_body_is_proven_as_it_is(seed: int) -> None:
         there = least(found.tightest_at_s + np.array([-1e-9, 0.0, 1e-9])) - 0.1
         assert found.clearance <= there + 1e-6
         assert there <= found.clearance + PROOF_TOLERANCE_M + 1e-6
+
+
+@given(seeds)
+def test_it_is_told_alone_whether_a_body_keeps_what_is_asked(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    path, law, hold = random_drive(rng)
+    motions = [random_motion(rng, law.duration) for _ in range(rng.integers(1, 5))]
+    moving = MovingObstacles([Obstacle(**random_shape(rng), motion=motion) for motion in motions])
+    held = float(rng.uniform(-3, 3)) if rng.random() < 0.3 else None
+    known = certify_moving(
+        path, law, moving, 0.3, radius=0.1, footprint=BODY, heading=held, hold=hold
+    ).clearance
+
+    def keeps(clearance: float) -> bool:
+        return keeps_from_moving(
+            path, law, moving, clearance, 0.1, BODY, heading=held, hold=hold
+        )  # fmt: skip
+
+    less, more = float(rng.uniform(0.0, 0.5)), float(rng.uniform(0.0, 0.5))
+    assert keeps(min(known, 10.0) - 2.0 * PROOF_SLACK_M - less)
+    if known < math.inf:
+        assert not keeps(known + PROOF_TOLERANCE_M + 2.0 * PROOF_SLACK_M + more)
 
 
 # Named examples

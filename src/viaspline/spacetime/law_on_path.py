@@ -9,7 +9,7 @@ from viaspline.curve.path import Path
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.spacetime.alternatives import Alternative
-from viaspline.spacetime.body_past_moving import certify_body
+from viaspline.spacetime.body_past_moving import certify_body, keeps_past_moving
 from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.trajectory import Trajectory
@@ -42,7 +42,7 @@ def law_on_path(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory
             other = _law_keeping(problem, taken, budget, required)
             if not isinstance(other, Found) or _is_later(other, outcome):
                 continue
-            if moving_proof(problem, taken.solution.path, other.value).holds:
+            if _keeps_clear(problem, taken.solution.path, other.value):
                 return other
         for speed in problem.lower_speeds:
             if isinstance(outcome, Found) or budget.is_spent:
@@ -102,11 +102,19 @@ def moving_proof(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCe
     )
 
 
+def _keeps_clear(problem: TimedProblem, path: Path, law: Trajectory) -> bool:
+    """Whether that proof would hold."""
+    mission = problem.mission
+    return keeps_past_moving(
+        problem.requirements, mission.robot, path, law, problem.moving, hold=mission.route.hold_s
+    )
+
+
 def departure_that_serves(problem: TimedProblem, path: Path) -> str | None:
     """When to depart instead, on the path among what stands, if one of some later times serves."""
     for later in LATER_S:
         depart = problem.mission.route.depart_s + later
         outcome = _law(problem, path, problem.required, depart, None, None, _unexplained)
-        if isinstance(outcome, Found) and moving_proof(problem, path, outcome.value).holds:
+        if isinstance(outcome, Found) and _keeps_clear(problem, path, outcome.value):
             return f"depart {later:g} s later (route.depart_s: {depart:g})"
     return None

@@ -147,12 +147,8 @@ def certified_moving(
         hold: Likewise.
     """
     check_kind("moving", moving, MovingObstacles, "give MovingObstacles([...])")
-    timed = timed_path(path, trajectory)
-    body = POINT if footprint is None else outline(footprint)
-    held = math.nan if heading is None else number_from("heading", heading)
-    required = clearance + radius - PROOF_SLACK_M
-    lower, _, instant, distance, x, y, facing, index = moving_tightest(
-        timed, moving.packed, body, held, _checked_hold(hold), PROOF_TOLERANCE_M, required
+    lower, _, instant, distance, x, y, facing, index = _tightest(
+        path, trajectory, moving, clearance + radius, footprint, heading, hold, PROOF_TOLERANCE_M
     )
     return MovingCertificate(
         clearance=lower - radius,
@@ -163,6 +159,54 @@ def certified_moving(
         obstacle=None if index < 0 else moving.name(index),
         heading=None if math.isnan(facing) else facing,
     )
+
+
+def keeps_from_moving(
+    path: PiecewiseCubic,
+    trajectory: Trajectory,
+    moving: MovingObstacles,
+    clearance: float,
+    radius: float,
+    footprint: ArrayLike | None,
+    *,
+    heading: float | None,
+    hold: float,
+) -> bool:
+    """Whether a certificate of the same would hold; sooner, for it isn't found out by how much.
+
+    Args:
+        path: See ``certified_moving``, and the others.
+        trajectory: Likewise.
+        moving: Likewise.
+        clearance: Likewise.
+        radius: Likewise.
+        footprint: Likewise.
+        heading: Likewise.
+        hold: Likewise.
+    """
+    required = clearance + radius
+    lower = _tightest(path, trajectory, moving, required, footprint, heading, hold, math.inf)[0]
+    return lower >= required - PROOF_SLACK_M
+
+
+def _tightest(
+    path: PiecewiseCubic,
+    trajectory: Trajectory,
+    moving: MovingObstacles,
+    required: float,
+    footprint: ArrayLike | None,
+    heading: float | None,
+    hold: float,
+    tolerance: float,
+) -> tuple[float, float, float, float, float, float, float, int]:
+    """See ``moving_tightest``."""
+    timed = timed_path(path, trajectory)
+    body = POINT if footprint is None else outline(footprint)
+    held = math.nan if heading is None else number_from("heading", heading)
+    least = required - PROOF_SLACK_M
+    return moving_tightest(
+        timed, moving.packed, body, held, _checked_hold(hold), tolerance, least
+    )  # fmt: skip
 
 
 def timed_path(path: PiecewiseCubic, trajectory: Trajectory) -> TimedPath:

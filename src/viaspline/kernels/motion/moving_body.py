@@ -37,7 +37,8 @@ from viaspline.kernels.world.shape import obstacle_enclosed, obstacle_segment
 
 AT_JOINT = 1e-9  # of a span, within which a place is at its end
 LEAST_CORNER = 1e-9  # differences of directions below this are none
-SWEEP_STEP_M = 2e-4  # what a turn on the spot may miss [m]
+SWEEP_STEP_M = 2e-4  # what a turn on the spot may miss [m],
+SWEEP_SHARE = 0.125  # or so much of how far all moves meanwhile
 
 
 @inner
@@ -66,11 +67,11 @@ def _pose_gap(
 @inner
 def _sweep_gap(
     motion: PackedMotion, i: int, body: Floats, x: float, y: float, first: float, turn: float,
-    limit: float,
+    limit: float, missed: float,
 ) -> tuple[float, float]:  # fmt: skip
     """The least distance in a turn on the spot [m], at most the limit, and the heading then [rad].
 
-    It may be SWEEP_STEP_M less.
+    It may be less by what is missed [m].
     """
     outer = outer_radius(body)
     best = limit
@@ -83,7 +84,7 @@ def _sweep_gap(
             at = first + math.copysign(turned, turn)
         if turned >= abs(turn) or best == 0.0:
             return best, at
-        turned = min(abs(turn), turned + (gap - best + SWEEP_STEP_M) / outer)
+        turned = min(abs(turn), turned + (gap - best + missed) / outer)
 
 
 @inner
@@ -196,11 +197,12 @@ def body_bounds(
     frame = piece[HEADING] + piece[TURNING] * (instant - shift - piece[KNOWN])
     c, s = math.cos(frame), math.sin(frame)
     x, y = c * ax + s * ay, c * ay - s * ax
-    limit = max(enough + moves + most, 0.0) + 2.0 * SWEEP_STEP_M
     if corners == 1:
+        missed = max(SWEEP_STEP_M, SWEEP_SHARE * moves)
+        limit = max(enough + moves + most, 0.0) + 2.0 * missed
         before, swept = _turn_at(path.rows, joint % bends.shape[0])
-        gap, heading = _sweep_gap(motion, i, body, x, y, before - frame, swept, limit)
-        lower = max(gap - SWEEP_STEP_M - moves, 0.0) - most
+        gap, heading = _sweep_gap(motion, i, body, x, y, before - frame, swept, limit, missed)
+        lower = max(gap - missed - moves, 0.0) - most
         if abs(u - joint) <= AT_JOINT:
             return lower, gap - then if gap < limit else np.inf, heading + frame, instant
         heading = _heading_of(path.rows, u)
@@ -216,7 +218,7 @@ def body_bounds(
             first = _heading_of(path.rows, from_u) + right
             limit = max(enough + shifts + most, 0.0) + 2.0 * SWEEP_STEP_M
             gap, heading = _sweep_gap(
-                motion, i, body, x, y, first - frame, left - right, limit
+                motion, i, body, x, y, first - frame, left - right, limit, SWEEP_STEP_M
             )  # fmt: skip
             lower = max(gap - SWEEP_STEP_M - shifts, 0.0) - most
             upper = gap + shifts - uncertainty(motion, i, begin)

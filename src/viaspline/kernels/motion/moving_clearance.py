@@ -69,15 +69,15 @@ from viaspline.kernels.motion.timed_path import (
 MAX_PAIRS = 1_000_000  # that are halved for a bound
 FIRST_SAG_SHARE = 0.01  # of the length of a path: the sag of the strides to start with
 PLACING_STEPS = 50  # halvings in which the tightest instant is looked for
-FINER = 1e-4  # of the tolerance: that to which it is told whether what is required is kept
+TOLD_M = 1e-7  # to which it is told whether what is required is kept
 
 
 @inner
 def _settled(lower: float, upper: float, tolerance: float, required: float) -> bool:
     """Whether a pair is known well enough: to the tolerance, and to tell what is required."""
-    if lower < upper - tolerance:
+    if not math.isinf(tolerance) and lower < upper - tolerance:
         return False
-    return lower >= required or upper < required or lower >= upper - FINER * tolerance
+    return lower >= required or upper < required or lower >= upper - TOLD_M
 
 
 @inner
@@ -143,6 +143,7 @@ def _refined(
     """
     lower = np.inf
     upper = pairs[best, UPPER]
+    most = required if math.isinf(tolerance) else np.inf
     copy_pair(pairs, best, 0)
     room = pairs.shape[0]
     heap = Heap(np.empty(room), np.empty(room, np.int64), np.zeros(1, np.int64))
@@ -166,11 +167,11 @@ def _refined(
         grown = _sharpened(path, bends, pairs, k, size)
         for n in range(grown - size + 1):
             j = k if n == 0 else size
-            _bound(path, motion, bends, body, held, pairs[j], upper)
+            _bound(path, motion, bends, body, held, pairs[j], min(upper, most))
             if pairs[j, UPPER] < upper:
                 upper = pairs[j, UPPER]
                 copy_pair(pairs, j, 0)
-            if pairs[j, LOWER] < upper:
+            if pairs[j, LOWER] < min(upper, most):
                 push(heap, pairs[j, LOWER], j)
             else:
                 lower = min(lower, pairs[j, LOWER])
@@ -232,7 +233,8 @@ def moving_tightest(
             point alone counts.
         held: The heading that the body keeps [rad]; nan: it looks the way it goes.
         hold: How long the robot stands at its end [s].
-        tolerance: How far apart the two bounds may be [m].
+        tolerance: How far apart the two bounds may be [m]; infinite: they tell no more than whether
+            what is required is kept.
         required: Distance of which the bounds have to tell whether it is kept [m].
 
     Returns:

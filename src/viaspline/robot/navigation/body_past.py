@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from viaspline.curve.path import Path
 from viaspline.robot.navigation.drive_task import DriveTask
-from viaspline.spacetime.body_past_moving import certify_body
+from viaspline.spacetime.body_past_moving import keeps_past_moving
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -30,4 +30,4 @@ def body_keeps_clear(
     if needs.footprint is None:
         return False
     robot = task.mission.robot
-    return certify_body(needs, robot, path, law, moving, hold=hold, apart=task.apart).holds
+    return keeps_past_moving(needs, robot, path, law, moving, hold=hold, apart=task.apart)
