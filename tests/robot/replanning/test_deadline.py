@@ -9,7 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
+from viaspline.planner import plan
+from viaspline.robot.navigation.drive_task import DriveTask, requirements_under_way
+from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.pending_search import NO_STAGE
+from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.replanning import deadline
 from viaspline.robot.replanning.deadline import (
@@ -169,6 +176,24 @@ def test_who_has_tried_all_that_he_has_time_for_goes_on_for_a_while_before_he_tr
     far = [bool(nav.compute_times) for nav in navs if nav.searches and nav.distance < 45.0]
     assert 0 < far.count(True) < 0.4 * len(far)
     assert navs[-1].reached
+
+
+def test_one_that_has_just_set_off_tries_again_as_soon_as_one_that_will_be_as_fast() -> None:
+    """It paused for 6 s: by the speed at which it set off it would have taken minutes."""
+    mission = Mission.model_validate({"route": {"start": [0, 0], "goal": [100, 0]}})
+    made = plan(mission)
+    task = DriveTask(
+        mission, requirements_under_way(mission, 0.0), limits_of(mission.robot), reaction=0.1
+    )
+    schedule = Schedule(made.path, made.trajectory, laid_in=made.world)
+    law, knowledge = made.trajectory, Knowledge(made.world, frozenset())
+    for time in (0.05, 1.0, 10.0):
+        progress = Progress(time, float(law.distance_at(time)), last_via=0)
+        context = ReplanContext.of(task, progress, knowledge, schedule).searching(STEP_WORK_S)
+        pending = deadline.gone_on(context, NO_STAGE, 90.0, None)
+        assert pending is not None
+        arrives = float(law.time_at(90.0))
+        assert pending.again - time == pytest.approx(deadline.PAUSE_RATIO * (arrives - time))
 
 
 def test_a_robot_that_is_held_where_it_was_keeps_its_time_law_while_it_searches(

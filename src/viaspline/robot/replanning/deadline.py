@@ -103,8 +103,7 @@ def gone_on(
     if context.speed > 0.0:
         again = -math.inf
         if begin_with == NO_STAGE:
-            left = (held_at - context.progress.distance) / context.speed
-            pause = max(RETRY_INTERVAL_S, PAUSE_RATIO * left)
+            pause = max(RETRY_INTERVAL_S, PAUSE_RATIO * _until_there(context, held_at))
             begin_with, again, doubt = FIRST_STAGE, context.progress.time + pause, None
         so_far = SearchSoFar(STANDING_WORK_S, 0.0, world, budget.finished)
         free, leave = context.obstruction.free_until, _settled_leave(context, again)
@@ -120,6 +119,16 @@ def gone_on(
         return None
     so_far = SearchSoFar(limit, spent, world, budget.finished)
     return PendingSearch(since, obstacles, names, begin_with, so_far, doubt=doubt)
+
+
+def _until_there(context: ReplanContext, place: float) -> float:
+    """How long the robot takes by its law to a place, or to where that ends if it is nearer [s].
+
+    One that has just set off is slow, but not for long.
+    """
+    law = context.schedule.trajectory
+    arrives = law.time_at(min(place, float(law.distances[-1])))
+    return max(float(arrives) - context.progress.time, 0.0)
 
 
 def _settled_leave(context: ReplanContext, again: float) -> float | None:
