@@ -163,7 +163,7 @@ def _followed(now: _StepSoFar) -> _StepSoFar:
     if is_due(progress, schedule):
         now, motion = _on_next_part(now, schedule), None
         progress, schedule = now.progress, now.schedule
-    schedule = caught_up(task, progress, knowledge, schedule, inputs.measured.speed)
+    schedule = caught_up(task, progress, knowledge, schedule, inputs.measured)
     if before.watch.held is not None and inputs.stale is None:
         schedule = let_on(task, progress, knowledge, schedule)
     now = replace(now, schedule=schedule)

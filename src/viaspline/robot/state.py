@@ -5,6 +5,7 @@ Tested through ``robot/test_navigator``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -41,6 +42,24 @@ class RobotState:
         if not isinstance(self.position, tuple):
             place = numbers_from("position", self.position).ravel()
             object.__setattr__(self, "position", tuple(place.tolist()))
+
+    @property
+    def ground_speed(self) -> float:
+        """Over the ground, whichever way [m/s].
+
+        >>> RobotState((3.0, 4.0), heading=0.0, speed=-0.6, speed_across=0.8).ground_speed
+        1.0
+        """
+        return math.hypot(self.speed, self.speed_across)
+
+    def speed_towards(self, way: float) -> float:
+        """That part of its velocity that leads one way [rad] over the ground [m/s].
+
+        >>> RobotState((3.0, 4.0), heading=0.5, speed=0.6, speed_across=2.0).speed_towards(0.5)
+        0.6
+        """
+        turned = way - self.heading
+        return self.speed * math.cos(turned) + self.speed_across * math.sin(turned)
 
 
 @dataclass(frozen=True, eq=False)

@@ -230,3 +230,16 @@ def test_a_robot_without_a_drive_is_told_to_turn_while_it_stands(mission_of: Mak
     leaves = turned[round(180.0 / 20.0 / STEP) - 2]
     assert abs(math.remainder(leaves - math.pi, math.tau)) < 0.15
     assert abs(math.remainder(heading - math.pi, math.tau)) < 0.05
+
+
+@pytest.mark.parametrize("held", [20.0, 90.0, 180.0, 270.0])
+def test_whichever_way_a_body_looks_a_new_law_goes_on_from_its_speed(held: float) -> None:
+    wheels = {"max_speed_along_mps": 1.0, "max_speed_across_mps": 1.0, "hold_heading_deg": held}
+    robot = {
+        "radius_m": 0.3, "max_speed_mps": 1.0, "max_accel_mps2": 0.5,
+        "drive": {"omnidirectional": wheels}, "localization": {"position_noise_m": 0.02},
+    }  # fmt: skip
+    route = {"start": [0, 0], "goal": [8, 0]}
+    run = simulate(Mission.model_validate({"route": route, "robot": robot}))
+    assert run.reached  # by its noise it is ahead of its law again and again, which begins anew
+    assert run.duration <= 1.1 * run.plan.trajectory.duration

@@ -37,6 +37,7 @@ from viaspline.robot.navigation.law_horizon import (
 from viaspline.robot.navigation.law_past import law_past, part_until, spans_until
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
+from viaspline.robot.state import RobotState
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.part import retime_part
 from viaspline.trajectory.retime import braking, retime
@@ -51,8 +52,9 @@ more than this share of what is kept for the tracking error."""
 
 
 def caught_up(
-    task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule, speed: float
-) -> Schedule:
+    task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule,
+    measured: RobotState,
+) -> Schedule:  # fmt: skip
     """The schedule of a robot that is ahead or behind, from where it is; else as it was.
 
     Args:
@@ -60,13 +62,17 @@ def caught_up(
         progress: How far it has come, and how far that is from where it should be.
         knowledge: All that is known.
         schedule: What the robot means to do.
-        speed: As measured [m/s]; below 0 where it gets back to a place on which it turns.
+        measured: Its speed; that is below 0 where it gets back to a place on which it turns.
     """
     if progress.along_track == 0.0 and progress.time < renewed_at(task, knowledge, schedule):
         return schedule
     if progress.along_track == 0.0:
         speed = float(schedule.trajectory.state_at(progress.time)[1])
         return rescheduled(task, progress, knowledge, schedule, speed)
+    speed, path = measured.speed, schedule.path
+    if task.mission.robot.held_heading is not None:  # it goes any way, whichever way it looks
+        way = float(path.heading(path.parameter(progress.distance)))
+        speed = measured.speed_towards(way)
     allowed = float(schedule.trajectory.speed_at(progress.distance))
     return rescheduled(task, progress, knowledge, schedule, min(max(speed, 0.0), allowed))
 

@@ -141,11 +141,16 @@ def _scan_age(task: DriveTask, watch: Watch, time: float) -> float:
 def _heard(watch: Watch, state: RobotState, time: float, limit: float) -> Watch:
     """With what was measured, and when: a pose that stands still while it says that it moves."""
     before = watch.measured
-    same = before is not None and (state.position, state.speed) == (before.position, before.speed)
-    frozen = same and abs(state.speed) > MOVING_MPS
+    frozen = before is not None and state.ground_speed > MOVING_MPS and _is_as(state, before)
     moved_at = watch.moved_at if frozen else time
     at = moved_at if state.stamp is None else _taken(state.stamp, time, limit)
     return replace(watch, measured=state, at=at, moved_at=moved_at)
+
+
+def _is_as(state: RobotState, before: RobotState) -> bool:
+    """Whether the same was measured again."""
+    now, then = ((one.position, one.speed, one.speed_across) for one in (state, before))
+    return now == then
 
 
 def carried_on(state: RobotState, seconds: float) -> RobotState:

@@ -117,8 +117,8 @@ def _set_beside(
     if is_way_back_clear(room, required, body):
         return watch, Deviation(off, kept, kept, float(room.min()) - body, returns=True)
     slow, least = _slowest(task), _convergence(task, 0.0)
-    braking = max(measured.speed**2 - slow**2, 0.0) / (2.0 * task.limits.brake)
-    braking += abs(measured.speed) * task.reaction
+    braking = max(measured.ground_speed**2 - slow**2, 0.0) / (2.0 * task.limits.brake)
+    braking += measured.ground_speed * task.reaction
     room = room_on(world, way_back(path, place.distance, at, least, beside=braking))
     whole = braking + SETTLED * least
     if not is_way_back_clear(room, required, body, braking / whole):

@@ -86,7 +86,7 @@ def true_place(
     path = schedule.path
     if is_there(schedule, measured, should):
         return TruePlace(should, 0.0, 0.0)
-    turns, moves = schedule.turns, abs(measured.speed) > TURNING_MPS
+    turns, moves = schedule.turns, measured.ground_speed > TURNING_MPS
     passed = [turn for turn in turns if turn <= should - PASSED_M]
     left = [turn for turn in turns if should - PASSED_M < turn <= should]
     to_come = [turn for turn in turns if turn > should]
