@@ -20,6 +20,7 @@ from viaspline.compared_tensions import TRIED_TENSIONS
 from viaspline.report.advice_words import advice_words
 from viaspline.report.tension_picture import tension_picture
 from viaspline.report.terminal.advice_tables import advice_tables
+from viaspline.report.units import seconds
 
 VIAS = [[30, 5], [45, 30], [20, 45], [-10, 30]]
 SAME = 2e-6  # part of a time or a curvature by which two plans that are the same may differ
@@ -322,3 +323,18 @@ def _printed(advice: vs.TensionAdvice) -> str:
     with console.capture() as capture:
         console.print(advice_tables(advice, "m"))
     return capture.get()
+
+
+def test_where_no_tension_matters_it_is_said_how_much_faster_none_is() -> None:
+    robot = {
+        "radius_m": 0.3, "max_speed_mps": 4, "max_accel_mps2": 0.5, "max_lateral_accel_mps2": 0.5,
+    }  # fmt: skip
+    asked = vs.Mission.model_validate({
+        "world": {"known": [{"circle": {"center": [15, 0.2], "radius": 3}}]},
+        "robot": robot, "route": {"start": [0, 0], "goal": [30, 0]}, "spline": {"tension": 0.5},
+    })  # fmt: skip
+    advice = vs.advise_tension(asked)
+    gained = advice.chosen.cost[0] - vs.plan(with_spline(asked)).trajectory.duration
+    assert not advice.matters
+    assert gained > 0.1
+    assert f"With none stated, lines and turns are {seconds(gained)} faster" in advice_words(advice)

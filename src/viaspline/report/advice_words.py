@@ -33,7 +33,8 @@ def advice_words(advice: TensionAdvice) -> str:
     """What to take, and what that gains over what stands in the mission."""
     time, peak = advice.chosen.cost
     if not advice.matters:
-        return f"There is nothing to choose: {_why_none(advice)} ({seconds(time)})."
+        none = f"There is nothing to choose: {_why_none(advice)} ({seconds(time)})."
+        return none + _unstated(advice)
     tension = advice.suggested
     take = "state no tension" if tension is None else f"tension {tension_words(tension)}"
     if advice.effects is not None and not advice.keeps_spline:
