@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
+from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.robot.navigation.law_horizon import (
     RENEWAL_S,
@@ -20,6 +24,7 @@ from viaspline.robot.navigation.law_horizon import (
 )
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import LidarSensor
+from viaspline.trajectory.retime import retime
 
 Make = Callable[..., Mission]
 STEP, TURN_DEGPS2 = 0.05, 30.0
@@ -111,3 +116,27 @@ def test_where_a_path_bends_at_once_a_law_under_way_has_few_points_and_is_no_slo
     renewed = [b.trajectory for a, b in pairwise(navs) if b.trajectory is not a.trajectory]
     assert max(law.times.size for law in renewed) < 1000
     assert len(navs) * STEP <= 18.9 * 1.03
+
+
+@given(st.floats(0.5, 3.0), st.floats(0.3, 2.0), st.floats(0.3, 1.0))
+@example(2.0, 0.8, 0.7)  # was known at its very end alone: a rounding less than by the limit
+@settings(max_examples=20, deadline=None)
+def test_a_part_is_renewed_before_the_robot_brakes_for_its_end(
+    speed: float, brake: float, across: float
+) -> None:
+    wheels = {
+        "max_speed_along_mps": speed, "max_speed_across_mps": across * speed,
+        "hold_heading_deg": 20,
+    }  # fmt: skip
+    robot = {
+        "max_speed_mps": speed, "max_accel_mps2": brake, "drive": {"omnidirectional": wheels},
+        "tracking_error_m": 0.05,
+    }  # fmt: skip
+    route = {"start": [0, 0], "goal": [100, 0]}
+    nav = Navigator(Mission.model_validate({"route": route, "robot": robot}))
+    task, state = nav._task, nav._state
+    law = retime(Path([[(k * 40 / 3, 0.0) for k in range(4)]], []), task.limits)
+    brakes = law.end_time - law.speeds.max() / brake  # at full speed, as hard as it may
+    schedule = replace(state.schedule, trajectory=law)
+    sooner = brakes - renewed_at(task, state.knowledge, schedule)
+    assert 0.8 * RENEWAL_S <= sooner <= RENEWAL_S + 0.1 * (law.end_time - brakes) + 0.05

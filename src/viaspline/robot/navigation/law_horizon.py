@@ -40,6 +40,9 @@ STOP_ROOM = 2.0
 RENEWAL_S = 0.5
 """and is found anew so much before it has to brake for its end [s]."""
 
+BRAKING_SPARE = 1.05
+"""To brake takes a law so much longer than by its limit: cells and rounding keep it from that."""
+
 DRIVEN_RATIO = 0.5
 """On a round where laws are cheap one is found anew when so much of it is driven."""
 
@@ -122,7 +125,7 @@ def renewed_at(task: DriveTask, knowledge: Knowledge, schedule: Schedule) -> flo
 
 def _brakes_at(law: Trajectory, limits: Limits) -> float:
     """When a robot has to brake at the soonest for the end of its time law [s]."""
-    times, jerk = law.speeds / limits.brake, limits.max_jerk
+    times, jerk = BRAKING_SPARE * law.speeds / limits.brake, limits.max_jerk
     if jerk is not None:  # one that is slow never brakes as hard as it can
         soft = law.speeds < limits.brake**2 / jerk
         times = np.where(soft, 2.0 * np.sqrt(law.speeds / jerk), times + limits.brake / jerk)
