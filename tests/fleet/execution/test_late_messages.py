@@ -39,3 +39,13 @@ def test_no_order_is_swapped_while_a_grant_is_on_its_way_to_the_first() -> None:
     commands, nav = nav.step([replace(waits(23.0), heard=22.0)], 23.0)
     assert [one.kind for one in nav.events] == ["swapped"]
     assert commands["r2"].granted == 60.0
+
+
+def test_reports_that_are_wrong_by_no_more_than_the_margin_are_believed() -> None:
+    plan = vs.plan_fleet(fleet({"start": [0, 0], "goal": [40, 0]}))
+    nav = vs.FleetNavigator(plan, margin_m=0.5, warm=False)
+    wrong, law = np.random.default_rng(1), plan.plans["r0"].trajectory
+    for time in np.arange(0.0, law.end_time, 0.1).tolist():
+        says = float(law.distance_at(time) + wrong.uniform(-0.5, 0.5))
+        _, nav = nav.step([ProgressReport("r0", time, says)], time)
+        assert [one for one in nav.events if one.kind in ("refused", "ignored")] == []

@@ -39,7 +39,7 @@ def believed(
     events: list[FleetEvent] = []
     counted = [_counted(report, known, state.driven) for report in reports]
     for report in sorted(counted, key=_by_time):
-        event = judged(report, known, state.time)
+        event = judged(report, known, state.time, margin)
         if event is not None:
             events.append(event)
             continue

@@ -45,14 +45,22 @@ class KnownFleet:
     paths: Ints
 
 
-def judged(report: ProgressReport, known: KnownFleet, now: float) -> FleetEvent | None:
+def judged(
+    report: ProgressReport, known: KnownFleet, now: float, margin: float
+) -> FleetEvent | None:
     """Why a report isn't believed; None if it is.
 
     A report from the future, of a place that the robot can't have come to or wasn't let to, of no
     robot of the fleet, or without numbers is refused. An old one, or one of a place farther back,
     is ignored: where a robot has been, it doesn't come back.
+
+    Args:
+        report: Of a robot.
+        known: What it is judged by.
+        now: The time [s].
+        margin: By so much more reports may be wrong [m]: it is taken off all that they say.
     """
-    found = _fault(report, known, now)
+    found = _fault(report, known, now, margin)
     if found is None:
         return None
     kind, why = found
@@ -61,7 +69,7 @@ def judged(report: ProgressReport, known: KnownFleet, now: float) -> FleetEvent 
 
 
 def _fault(
-    report: ProgressReport, known: KnownFleet, now: float
+    report: ProgressReport, known: KnownFleet, now: float, margin: float
 ) -> tuple[FleetEventKind, str] | None:
     """What becomes of a report that isn't believed, and why."""
     robot = known.names.get(report.name)
@@ -78,18 +86,20 @@ def _fault(
         return "ignored", f"is old, of {report.time:.2f} s"
     if report.path != known.paths[robot]:
         return "ignored", f"is along its path {report.path}, and it drives {known.paths[robot]}"
+    noise = NOISE_M + margin
     length, come = float(known.lengths[robot]), float(known.progress[robot])
     come, says = min(come, length), f"says {report.distance:.2f} m"
-    if not -NOISE_M <= report.distance <= length + NOISE_M:
+    if not -noise <= report.distance <= length + noise:
         return "refused", f"{says} of a path of {length:.2f} m"
-    if report.arrived and report.distance < length - NOISE_M:
+    if report.arrived and report.distance < length - noise:
         return "refused", f"{says} and that it has arrived, which is at {length:.2f} m"
     since = max(float(known.heard[robot]), float(known.departs[robot]))
     can = float(known.fastest[robot]) * max(report.time - since, 0.0)
-    if report.distance > come + can + NOISE_M:
+    can += 2.0 * margin  # it was farther than it said, and then that was taken off
+    if report.distance > come + can + noise:
         return "refused", f"{says}, but it can't have come farther than {come + can:.2f} m"
-    if report.distance > known.promised[robot] + NOISE_M:
+    if report.distance > known.promised[robot] + noise:
         return "refused", f"{says}, but it may go to {known.promised[robot]:.2f} m only"
-    if report.distance < come - NOISE_M:
+    if report.distance < come - noise:
         return "ignored", f"{says}, but it has been at {come:.2f} m"
     return None
