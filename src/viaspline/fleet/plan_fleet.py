@@ -27,6 +27,7 @@ from viaspline.fleet.robots_at_home import certify_all
 from viaspline.fleet.served_fleet import RELAY_S, REROUTE_S, served_along
 from viaspline.fleet.space.plan_spatial_fleet import plan_spatial_fleet
 from viaspline.fleet.still_world import without_motion
+from viaspline.fleet.straight_fleet import WaysRound
 from viaspline.fleet.swerved_fleet import swerved_fleet
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.rides import goal_stays
@@ -205,6 +206,8 @@ def is_settled_by_priority(plan: FleetPlan, paths: CrossingPaths) -> bool:
         return False
     if plan.patrols is not None or plan.fleet.world.moving:
         return True
+    if WaysRound.of(paths.laid.plans, paths.laid.kept).long:
+        return False
     arrivals = arrivals_of(plan.courses, plan.laws) + goal_stays(plan.courses, plan.rides)
     if may_be_led_sooner(plan.rides, arrivals):
         return False

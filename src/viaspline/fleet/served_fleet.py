@@ -12,6 +12,7 @@ from viaspline.fleet.laying.laying_work import LayingWork
 from viaspline.fleet.led_fleet import is_dense, led_at_once, led_fleet, may_be_led_sooner
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet
+from viaspline.fleet.straight_fleet import straight_fleet
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.unserved.pair_refusal import cannot_both_be_served
 from viaspline.mission.fleet.fleet import Fleet
@@ -30,10 +31,11 @@ def served_fleet(
     """Time robots by priority; where that leaves some without a law, look for other ways.
 
     Robots that rest densely are led over a lattice at once, if all can be. Else they are timed
-    along paths round all resting places, some of them once more (``time_paths``). Where that leaves
-    any out, or serves many badly, all are led over a lattice as well. Else some are laid off the
-    stretches on which they are in each other's way, else among the others that move as it is known,
-    unless it is proven that this is of no use.
+    along paths round all resting places, some of them once more (``time_paths``); who is led a long
+    way round is tried on the path that it would take alone. Where that leaves any out, or serves
+    many badly, all are led over a lattice as well. Else some are laid off the stretches on which
+    they are in each other's way, else among the others that move as it is known, unless it is
+    proven that this is of no use.
 
     Args:
         fleet: What is asked for.
@@ -54,6 +56,8 @@ def served_along(
     """As ``served_fleet``, where robots aren't led over a lattice at once."""
     ways = FleetWays.of(fleet, paths)
     timed = TimedFleet.by_priority(ways)
+    if not timed.blocked:
+        timed = straight_fleet(timed, paths.laid.kept, fleet.separation_m)
     if not timed.blocked and not may_be_led_sooner(ways.rides, timed.arrivals()):
         return timed
     led = led_fleet(

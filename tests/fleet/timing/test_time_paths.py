@@ -120,3 +120,14 @@ def test_a_robot_stands_at_its_goal_as_long_as_asked_also_when_it_was_slowed(
     with tempfile.TemporaryDirectory() as folder:
         plan.save(folder)
         assert vs.load_fleet_plan(folder) == plan
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_few_robots_pass_in_an_order_that_a_search_finds_none_sooner_than(seed: int) -> None:
+    order = np.random.default_rng(seed).permutation(5)
+    ends = [((0, 1.5 * k), (40, 1.5 * int(to))) for k, to in enumerate(order)]
+    lanes = [one[:: (-1) ** k] for k, one in enumerate(ends)]  # each other one the other way
+    ways = ways_of(*lanes, separation_m=0.4, robots={"cart": {"radius_m": 0.3, "clearance_m": 0.1}})
+    timed = TimedFleet.by_priority(ways)
+    assert not timed.blocked
+    assert timed.arrivals().sum() <= 1.01 * timed.improved(0.2).arrivals().sum()

@@ -10,7 +10,7 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.timing.law_search import LawSearch
+from viaspline.fleet.timing.law_search import FORESEEN, LawSearch
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.time_paths import MANY, Timing, copied_laws
 from viaspline.kernels.fleet.packed_laws import PackedLaws
@@ -23,10 +23,8 @@ TIMED_ANEW_SHARE = 0.5
 ORDERS_WORK = 0.1
 """what a node or a passage counts where orders are settled or turned: others are looked at one by
 one,"""
-FORESEEN = 0.2
-"""what a second counts that is foreseen to be waited later on,"""
 CHANCE_S = 0.3
-"""and up to how much an order may hold up more and be taken all the same [s]."""
+"""and up to how much an order may hold up more there and be taken all the same [s]."""
 ROUND_S = 0.25
 """After so much work it says how far it is."""
 

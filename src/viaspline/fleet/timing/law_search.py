@@ -25,6 +25,8 @@ SEED = 1
 """Of the random numbers of a search."""
 PRIORITY_WEIGHT = 2.0
 """What a second of a robot counts against one of a robot whose priority is less by one."""
+FORESEEN = 0.2
+"""What a second counts that is foreseen to be waited later on, where that is in view."""
 
 
 def priority_weights(priorities: Sequence[float]) -> Floats:

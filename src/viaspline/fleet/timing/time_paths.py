@@ -12,7 +12,7 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.late_share import arrivals_of
 from viaspline.fleet.timing.forced_orders import forced_orders, timing_order
-from viaspline.fleet.timing.law_search import LawSearch
+from viaspline.fleet.timing.law_search import FORESEEN, LawSearch
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.packed_laws import PackedLaws
@@ -25,6 +25,8 @@ RIDES_EACH = 200
 """So many rides are looked for at a time, for laws of robots that can't let others pass."""
 MANY = 50
 """Of so many robots who passes first is also settled where two would meet, in the order of time."""
+LEAST_LATE_S = 0.5
+"""Few robots that are less late in all, each weighed by its priority, keep their order [s]."""
 MAX_IDLE = 5
 """How often that, or another order of all, is tried without serving more by it."""
 
@@ -75,10 +77,10 @@ def time_paths(
 
     Among equals those with the longer way come first. For a robot that can't let others pass some
     of these are timed anew, after it. Where that doesn't help, it is timed before the one that it
-    can't let pass, and all from the beginning. Of many robots those that came last would wait for
-    all others: there who passes first is also settled where two would meet, in the order of time,
-    and the better of both is taken. Where no path passes another's start or resting place, every
-    robot is served.
+    can't let pass, and all from the beginning. Those that came last would wait for all others: so
+    who passes first is also settled where two would meet, in the order of time, and the better of
+    both is taken; of few robots that is done where priority serves them all, and makes them late.
+    Where no path passes another's start or resting place, every robot is served.
 
     Args:
         courses: Their paths.
@@ -96,9 +98,11 @@ def time_paths(
     is_small = given.packed.is_timed.size - len(settled) < MANY
     if is_small:
         found = _timed(courses, crossings, passages, rides, asked, ranks, left_out, given)
-        if not found.blocked:
+        if len(settled) == given.packed.is_timed.size:
             return found
     search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
+    if is_small and not found.blocked:
+        return _met_sooner(search, found, _laws_to_fill(given, left_out))
     if is_small:
         best = _given_laws(search, found.laws.packed)
     else:
@@ -122,6 +126,28 @@ def time_paths(
         idle += 1
         if len(found.blocked) < len(best.blocked):
             best, idle = found, 0
+    return best
+
+
+def _met_sooner(search: LawSearch, found: Timing, given: PackedLaws) -> Timing:
+    """A timing that serves all, or one by who meets whom first that does as well and is sooner.
+
+    Args:
+        search: What the robots drive among.
+        found: By priority.
+        given: The laws that are given.
+    """
+    ends = (search.courses.packed.first[1:] - 1)[search.movable]
+    weight, soonest = search.weight[search.movable], search.rides.laws.packed.arrive[ends]
+    late, best = float(weight @ (found.laws.packed.arrive[ends] - soonest)), found
+    if late < LEAST_LATE_S:
+        return found
+    for foreseen in (0.0, FORESEEN):
+        laws = copied_laws(given)
+        search.first_come(laws, foreseen)
+        then = float(weight @ (laws.arrive[ends] - soonest)) if laws.is_timed.all() else np.inf
+        if then < late:
+            late, best = then, Timing(FleetLaws(laws), {})
     return best
 
 
