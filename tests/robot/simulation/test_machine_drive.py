@@ -218,8 +218,8 @@ def test_a_corner_at_a_station_is_turned_on_the_spot(mission_of: Make) -> None:
 
 
 def test_a_route_with_heights_is_not_for_machines(mission_of: Make) -> None:
-    with pytest.raises(GeometryError, match="plane"):
-        plan(mission_of([0, 0, 1], [9, 0, 2], **machine(sensor=None)))
+    with pytest.raises(MissionError, match="plane"):
+        mission_of([0, 0, 1], [9, 0, 2], **machine(sensor=None))
 
 
 def test_what_a_body_turned_as_it_stood_is_not_taken_from_all_that_it_kept_elsewhere() -> None:

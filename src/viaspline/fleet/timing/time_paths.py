@@ -26,7 +26,9 @@ RIDES_EACH = 200
 MANY = 50
 """Of so many robots who passes first is also settled where two would meet, in the order of time."""
 LEAST_LATE_S = 0.5
-"""Few robots that are less late in all, each weighed by its priority, keep their order [s]."""
+"""Few robots that are less late in all, each weighed by its priority, keep their order [s],"""
+LEAST_GAIN_S = 0.1
+"""and so they do if another one saves less [s]: of two alike rounding would choose."""
 MAX_IDLE = 5
 """How often that, or another order of all, is tried without serving more by it."""
 
@@ -146,7 +148,7 @@ def _met_sooner(search: LawSearch, found: Timing, given: PackedLaws) -> Timing:
         laws = copied_laws(given)
         search.first_come(laws, foreseen)
         then = float(weight @ (laws.arrive[ends] - soonest)) if laws.is_timed.all() else np.inf
-        if then < late:
+        if then < late - LEAST_GAIN_S:
             late, best = then, Timing(FleetLaws(laws), {})
     return best
 
