@@ -83,10 +83,10 @@ def command_for(
     if controller is not None:
         motion = _driven(controller, robot, path, distance)
         speed = math.hypot(*motion.velocity)
-    elif speed > AT_REST_MPS:
-        motion = _held(task, progress, schedule, measured, place)
     else:
-        motion = _from_rest(task, progress, schedule, measured, place)
+        motion = _held(task, progress, schedule, measured, place)
+    if controller is None and speed <= AT_REST_MPS:
+        motion = _from_rest(task, motion, heading_onward(path, distance), measured)
         stopped = motion.velocity == (0.0, 0.0)
         acceleration = 0.0 if stopped else acceleration
     heading = heading_onward(path, distance) if stopped else place.heading
@@ -143,21 +143,16 @@ def _held(
     return _Motion((speed, 0.0), rate, curvature, {})
 
 
-def _from_rest(
-    task: DriveTask, progress: Progress, schedule: Schedule, measured: RobotState, place: _Place
-) -> _Motion:
+def _from_rest(task: DriveTask, motion: _Motion, way: float, measured: RobotState) -> _Motion:
     """What a robot without a drive does where it stands: first it turns to its way on, if it can.
 
     Args:
         task: What is asked of it.
-        progress: How far it has come.
-        schedule: What it means to do.
+        motion: By which it sets off, where it looks that way.
+        way: The heading with which its path leads on [rad].
         measured: Where it is.
-        place: Where that is on its path.
     """
-    motion = _held(task, progress, schedule, measured, place)
-    heading = heading_onward(schedule.path, place.distance)
-    error = math.remainder(heading - measured.heading, math.tau)
+    error = math.remainder(way - measured.heading, math.tau)
     most, gain = told_rate_of(task.mission.robot), min(SPOT_GAIN, 1.0 / task.period)
     turned = 0.0 if abs(error) <= HEADING_DEADBAND_RAD else min(max(gain * error, -most), most)
     if motion.velocity[0] == 0.0 or (most > 0.0 and abs(error) > LEAVING_RAD):

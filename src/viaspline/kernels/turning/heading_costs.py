@@ -57,7 +57,8 @@ def leg_lengths(bends: Floats, starts: Floats, goals: Floats, ramp: float) -> Fl
         for j in range(goals.shape[0]):
             row[0, HEADING], row[last, HEADING] = starts[i], goals[j]
             row[0, SIDE], row[last, SIDE] = 0.0, 0.0
-            leaving, arriving = -lesser_side(row, True), -lesser_side(row, False)
+            leaving = 0.0 if math.isnan(starts[i]) else -lesser_side(row, True)
+            arriving = 0.0 if math.isnan(goals[j]) else -lesser_side(row, False)
             for a in range(2):
                 if a == 1 and math.isnan(starts[i]):
                     continue
