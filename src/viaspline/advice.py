@@ -12,17 +12,16 @@ import numpy as np
 from viaspline.compared_tensions import (
     TRIED_TENSIONS,
     ComparedTensions,
-    Tension,
     TensionTrial,
     compared_tensions,
     tension_trial,
-    with_tension,
 )
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind, numbers_from
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.spline_spec import LOOSEST_TENSION, POLYLINE_TENSION
+from viaspline.mission.stated_tension import StatedTension, with_tension
 from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.span_tensions import SpanTensions
@@ -69,7 +68,7 @@ class TensionAdvice(ComparedByValue):
         return self.chosen.plan
 
     @property
-    def suggested(self) -> Tension:
+    def suggested(self) -> StatedTension:
         """One for all spans, one for each, or None: state none."""
         return self.chosen.tension
 

@@ -18,6 +18,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.machine.measure_drivability import least_radius
 from viaspline.mission.model import Mission
 from viaspline.mission.spline_spec import SplineSpec
+from viaspline.mission.stated_tension import StatedTension, with_tension
 from viaspline.mission.strip import has_line
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.shared_searches import SharedSearches
@@ -39,9 +40,6 @@ MORE_AMONG_S = 4.0
 """What paths past what moves may spend with all tensions but these [s of the reference machine]: as
 much as those with one of them."""
 
-Tension = float | tuple[float, ...] | None
-"""One for all spans, one for each, or none stated."""
-
 
 @dataclass(frozen=True, eq=False)
 class TensionTrial(ComparedByValue):
@@ -53,7 +51,7 @@ class TensionTrial(ComparedByValue):
         error: Why there is none.
     """
 
-    tension: Tension
+    tension: StatedTension
     plan: Plan | None
     error: PlanningError | GeometryError | None = None
 
@@ -153,13 +151,7 @@ def compared_tensions(mission: Mission, world: World, tried: Floats) -> Compared
     return ComparedTensions(stands, basis, trials, effects)
 
 
-def with_tension(mission: Mission, tension: Tension) -> Mission:
-    """A mission with another tension."""
-    spline = mission.spline.model_copy(update={"tension": tension, "slack": None})
-    return mission.model_copy(update={"spline": spline})
-
-
-def tension_trial(mission: Mission, world: World, tension: Tension) -> TensionTrial:
+def tension_trial(mission: Mission, world: World, tension: StatedTension) -> TensionTrial:
     """The whole plan of a mission with another tension."""
     return _planned(with_tension(mission, tension), world, tension)
 
@@ -169,7 +161,7 @@ def _as_it_stands(mission: Mission, world: World) -> TensionTrial:
 
 
 def _planned(
-    mission: Mission, world: World, tension: Tension, spending: WorkBudget | None = None
+    mission: Mission, world: World, tension: StatedTension, spending: WorkBudget | None = None
 ) -> TensionTrial:
     try:
         return TensionTrial(tension, driven_plan(mission, world, spending))
@@ -177,7 +169,7 @@ def _planned(
         return TensionTrial(tension, None, error)
 
 
-def stated(spline: SplineSpec) -> Tension:
+def stated(spline: SplineSpec) -> StatedTension:
     """The tension that stands in a mission, by either of its names.
 
     >>> stated(SplineSpec(slack=0.25)), stated(SplineSpec(tension=(0.0, 0.5))), stated(SplineSpec())
@@ -213,7 +205,7 @@ class _Trials:
     world: World
     spending: WorkBudget
 
-    def of(self, tension: Tension) -> TensionTrial:
+    def of(self, tension: StatedTension) -> TensionTrial:
         """The one with a tension."""
         mission = with_tension(self.mission, tension)
         return _planned(mission, self.world, tension, self.spending)

@@ -6,7 +6,7 @@ Tested through ``test_advice``.
 from __future__ import annotations
 
 from viaspline.advice import TensionAdvice
-from viaspline.compared_tensions import Tension
+from viaspline.mission.stated_tension import StatedTension
 from viaspline.report.units import seconds
 
 STRAIGHT_1PM = 1e-9
@@ -16,7 +16,7 @@ LEAST_GAIN_S = 0.05
 """What is gained at least to be told [s]."""
 
 
-def tension_words(tension: Tension) -> str:
+def tension_words(tension: StatedTension) -> str:
     """A tension, or the tensions of the spans.
 
     >>> tension_words(0.1), tension_words((0.0, 0.5, 0.3)), tension_words(None)

@@ -1,7 +1,4 @@
-"""The tension of a flight that leaves it to the planner: of some, by whole plans.
-
-Tested through ``space/test_plan_spatial``.
-"""
+"""The tension of a flight that leaves it to the planner: of some, by whole plans."""
 
 from __future__ import annotations
 
@@ -10,6 +7,7 @@ from typing import Final
 
 from viaspline.errors import PlanningError
 from viaspline.mission.model import Mission
+from viaspline.mission.stated_tension import with_tension
 from viaspline.space.spatial_plan import SpatialPlan
 
 TRIED_TENSIONS: Final = (0.0, -0.5, -0.25, 0.25, 0.5, 0.75)
@@ -32,9 +30,8 @@ def by_soonest_tension(mission: Mission, planned: Callable[[Mission], SpatialPla
     plans: list[SpatialPlan] = []
     refused: PlanningError | None = None
     for tension in TRIED_TENSIONS:
-        spline = mission.spline.model_copy(update={"tension": tension})
         try:
-            plans.append(planned(mission.model_copy(update={"spline": spline})))
+            plans.append(planned(with_tension(mission, tension)))
         except PlanningError as error:
             refused = refused or error
     if not plans:

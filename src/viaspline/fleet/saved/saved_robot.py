@@ -19,6 +19,7 @@ from viaspline.fleet.space.timed_past_moving import past_moving
 from viaspline.fleet.still_world import without_motion
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.model import Mission
+from viaspline.mission.stated_tension import with_tension
 from viaspline.planner import Plan
 from viaspline.planning.routing.visit_order import ordered
 from viaspline.saved_plans.law_within_limits import check_moving_proof
@@ -136,9 +137,7 @@ def _with_told_tension(mission: Mission, file: PlanFile) -> Mission:
     if mission.spline.tension != "auto":
         return mission
     said = file.numbers("mission", "tension").tolist()
-    tension = tuple(said) if isinstance(said, list) else said
-    spline = mission.spline.model_copy(update={"tension": tension, "slack": None})
-    return mission.model_copy(update={"spline": spline})
+    return with_tension(mission, tuple(said) if isinstance(said, list) else said)
 
 
 def fleet_beside(file: Path, name: str) -> Path:

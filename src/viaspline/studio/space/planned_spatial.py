@@ -15,6 +15,7 @@ from pathlib import Path
 
 from viaspline.errors import GaveUpError, MissionError, PlanningError, ViasplineError
 from viaspline.mission.model import Mission
+from viaspline.mission.stated_tension import with_tension
 from viaspline.mission.world_spec import WorldSpec
 from viaspline.space.leg_router import LegRouter
 from viaspline.space.plan_spatial import plan_by, plan_spatial
@@ -117,8 +118,7 @@ def _soon(
 
 def _soon_by_any_tension(mission: Mission, known: KnownWays) -> tuple[SpatialPlan, KnownWays, bool]:
     """As ``_soon`` with a tension of 0, where it is left to the planner: that takes whole plans."""
-    spline = mission.spline.model_copy(update={"tension": 0.0})
-    stated = mission.model_copy(update={"spline": spline})
+    stated = with_tension(mission, 0.0)
     plan, ways, _ = _soon(stated, spatial_problem_of(stated), known)
     return plan, ways, False
 
