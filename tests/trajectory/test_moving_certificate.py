@@ -18,6 +18,7 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.moving_certificate import certify_moving, keeps_from_moving
 from viaspline.trajectory.retime import retime
+from viaspline.trajectory.timed_body import TimedBody
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -265,9 +266,7 @@ def test_it_is_told_alone_whether_a_body_keeps_what_is_asked(seed: int) -> None:
     ).clearance
 
     def keeps(clearance: float) -> bool:
-        return keeps_from_moving(
-            path, law, moving, clearance, 0.1, BODY, heading=held, hold=hold
-        )  # fmt: skip
+        return keeps_from_moving(TimedBody(path, law, 0.1, BODY, held, hold), moving, clearance)
 
     less, more = float(rng.uniform(0.0, 0.5)), float(rng.uniform(0.0, 0.5))
     assert keeps(min(known, 10.0) - 2.0 * PROOF_SLACK_M - less)

@@ -22,9 +22,9 @@ from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.spacetime.body_past_moving import certify_body
+from viaspline.spacetime.driven_body import driven_body
 from viaspline.spacetime.timed_drive import TimedDrive
-from viaspline.trajectory.moving_certificate import MovingCertificate
+from viaspline.trajectory.moving_certificate import MovingCertificate, certified_moving
 from viaspline.world.moving_obstacles import MovingObstacles
 
 ENDLESS = (
@@ -72,9 +72,10 @@ def moving_proof(fleet: Fleet, plan: Plan) -> MovingCertificate:
     """
     requirements = Requirements.of(plan.mission, plan.tracking_error)
     moving, mission = MovingObstacles(fleet.world.moving), plan.mission
-    return certify_body(
-        requirements, mission.robot, plan.path, plan.trajectory, moving, hold=mission.route.hold_s
+    body = driven_body(
+        requirements, mission.robot, plan.path, plan.trajectory, hold=mission.route.hold_s
     )
+    return certified_moving(body, moving, requirements.kept)
 
 
 def proven_among(fleet: Fleet, plan: Plan) -> Plan:

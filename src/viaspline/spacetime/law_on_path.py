@@ -9,9 +9,14 @@ from viaspline.curve.path import Path
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.spacetime.alternatives import Alternative
-from viaspline.spacetime.body_past_moving import certify_body, keeps_past_moving
+from viaspline.spacetime.driven_body import driven_body
 from viaspline.spacetime.timed_problem import TimedProblem
-from viaspline.trajectory.moving_certificate import MovingCertificate
+from viaspline.trajectory.moving_certificate import (
+    MovingCertificate,
+    certified_moving,
+    keeps_from_moving,
+)
+from viaspline.trajectory.timed_body import TimedBody
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_among import BUDGET_S, law_among
 from viaspline.trajectory.yielding.no_law import Unserved
@@ -96,18 +101,18 @@ def _unexplained(_: Unserved) -> GaveUp:
 
 def moving_proof(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCertificate:
     """What is proven of a path and a law on it: the distance to all that moves."""
-    mission = problem.mission
-    return certify_body(
-        problem.requirements, mission.robot, path, law, problem.moving, hold=mission.route.hold_s
-    )
+    return certified_moving(_body(problem, path, law), problem.moving, problem.requirements.kept)
 
 
 def _keeps_clear(problem: TimedProblem, path: Path, law: Trajectory) -> bool:
     """Whether that proof would hold."""
+    return keeps_from_moving(_body(problem, path, law), problem.moving, problem.requirements.kept)
+
+
+def _body(problem: TimedProblem, path: Path, law: Trajectory) -> TimedBody:
+    """The body on this path and by this law."""
     mission = problem.mission
-    return keeps_past_moving(
-        problem.requirements, mission.robot, path, law, problem.moving, hold=mission.route.hold_s
-    )
+    return driven_body(problem.requirements, mission.robot, path, law, hold=mission.route.hold_s)
 
 
 def departure_that_serves(problem: TimedProblem, path: Path) -> str | None:

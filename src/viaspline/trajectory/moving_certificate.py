@@ -5,26 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from viaspline.curve.certificate import PROOF_SLACK_M, PROOF_TOLERANCE_M
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import GeometryError
-from viaspline.handed_in import check_kind, number_from, room_from
-from viaspline.kernels.arrays import Floats
-from viaspline.kernels.motion import timed_path as columns
-from viaspline.kernels.motion.moving_clearance import moving_tightest
-from viaspline.kernels.motion.timed_path import LAW_COLUMNS, TimedPath
+from viaspline.handed_in import check_kind, room_from
 from viaspline.presentable.told_in_lines import told_in_lines
+from viaspline.trajectory.timed_body import TimedBody
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
-from viaspline.world.outline import outline
-
-POINT: Floats = np.zeros((1, 2))
-"""The outline of a disc, whose radius comes off at the end."""
-OFF_PATH_SHARE = 1e-9
-"""Of a path's length, by which a time law may end beyond it by rounding."""
 
 
 @told_in_lines
@@ -118,40 +107,27 @@ def certify_moving(
         (6.6, 11.2)
     """
     clearance, radius = room_from(clearance, radius)
-    return certified_moving(
-        path, trajectory, moving, clearance, radius, footprint, heading=heading, hold=hold
-    )  # fmt: skip
+    body = TimedBody(path, trajectory, radius, footprint, heading, hold)
+    return certified_moving(body, moving, clearance)
 
 
 def certified_moving(
-    path: PiecewiseCubic,
-    trajectory: Trajectory,
-    moving: MovingObstacles,
-    clearance: float,
-    radius: float,
-    footprint: ArrayLike | None,
-    *,
-    heading: float | None,
-    hold: float,
+    body: TimedBody, moving: MovingObstacles, clearance: float
 ) -> MovingCertificate:
     """See ``certify_moving``; for robots that stand nearer to something than they should as well.
 
     Args:
-        path: See there, and the others.
-        trajectory: Likewise.
-        moving: Likewise.
-        clearance: Below 0 where the body may overlap something by that [m].
-        radius: Likewise.
-        footprint: Likewise.
-        heading: Likewise.
-        hold: Likewise.
+        body: What is driven, and when.
+        moving: The obstacles.
+        clearance: What is asked for [m]; below 0 where the body may overlap something by that.
     """
     check_kind("moving", moving, MovingObstacles, "give MovingObstacles([...])")
-    lower, _, instant, distance, x, y, facing, index = _tightest(
-        path, trajectory, moving, clearance + radius, footprint, heading, hold, PROOF_TOLERANCE_M
+    least = clearance + body.radius - PROOF_SLACK_M
+    lower, _, instant, distance, x, y, facing, index = body.tightest(
+        moving, least, PROOF_TOLERANCE_M
     )
     return MovingCertificate(
-        clearance=lower - radius,
+        clearance=lower - body.radius,
         required=clearance,
         tightest_at_s=instant,
         tightest_at=(x, y),
@@ -161,84 +137,13 @@ def certified_moving(
     )
 
 
-def keeps_from_moving(
-    path: PiecewiseCubic,
-    trajectory: Trajectory,
-    moving: MovingObstacles,
-    clearance: float,
-    radius: float,
-    footprint: ArrayLike | None,
-    *,
-    heading: float | None,
-    hold: float,
-) -> bool:
+def keeps_from_moving(body: TimedBody, moving: MovingObstacles, clearance: float) -> bool:
     """Whether a certificate of the same would hold; sooner, for it isn't found out by how much.
 
     Args:
-        path: See ``certified_moving``, and the others.
-        trajectory: Likewise.
+        body: See ``certified_moving``, and the others.
         moving: Likewise.
         clearance: Likewise.
-        radius: Likewise.
-        footprint: Likewise.
-        heading: Likewise.
-        hold: Likewise.
     """
-    required = clearance + radius
-    lower = _tightest(path, trajectory, moving, required, footprint, heading, hold, math.inf)[0]
-    return lower >= required - PROOF_SLACK_M
-
-
-def _tightest(
-    path: PiecewiseCubic,
-    trajectory: Trajectory,
-    moving: MovingObstacles,
-    required: float,
-    footprint: ArrayLike | None,
-    heading: float | None,
-    hold: float,
-    tolerance: float,
-) -> tuple[float, float, float, float, float, float, float, int]:
-    """See ``moving_tightest``."""
-    timed = timed_path(path, trajectory)
-    body = POINT if footprint is None else outline(footprint)
-    held = math.nan if heading is None else number_from("heading", heading)
-    least = required - PROOF_SLACK_M
-    return moving_tightest(
-        timed, moving.packed, body, held, _checked_hold(hold), tolerance, least
-    )  # fmt: skip
-
-
-def timed_path(path: PiecewiseCubic, trajectory: Trajectory) -> TimedPath:
-    """A path and the time law along it as kernels take them.
-
-    Raises:
-        GeometryError: The path is not in the plane or in space, or the law leaves it.
-    """
-    check_kind("path", path, PiecewiseCubic, "give a CardinalSpline, or the path of a plan")
-    check_kind("trajectory", trajectory, Trajectory, "give what retime answers")
-    if path.dimension not in (2, 3):
-        raise GeometryError(f"a curve of dimension {path.dimension} can't be certified; 2 or 3 can")
-    last = float(trajectory.distances[-1])
-    beyond = not path.closed and last > path.length + OFF_PATH_SHARE * (1.0 + path.length)
-    if beyond or trajectory.distances[0] < -OFF_PATH_SHARE:
-        raise GeometryError(
-            f"the time law runs from {trajectory.distances[0]:g} m to {last:g} m and the path from "
-            f"0 to {path.length:g} m; give the law of this path"
-        )
-    law = np.zeros((len(trajectory.times), LAW_COLUMNS))
-    law[:, columns.TIME] = trajectory.times
-    law[:, columns.DISTANCE] = trajectory.distances
-    law[:, columns.SPEED] = trajectory.speeds
-    law[:-1, columns.ACCELERATION] = trajectory.accelerations
-    if trajectory.changes is not None and trajectory.jerks is not None:
-        law[:-1, columns.CHANGE] = trajectory.changes
-        law[:-1, columns.JERK] = trajectory.jerks
-    return TimedPath(*path.packed_length, path.closed, law)
-
-
-def _checked_hold(hold: float) -> float:
-    hold = number_from("hold", hold)
-    if not 0.0 <= hold < math.inf:
-        raise GeometryError(f"hold is {hold} s; give a finite time of 0 or more")
-    return hold
+    least = clearance + body.radius - PROOF_SLACK_M
+    return body.tightest(moving, least, math.inf)[0] >= least

@@ -17,8 +17,9 @@ from viaspline.kernels.motion.moving_clearance import moving_tightest
 from viaspline.machine.turns_on_spot import corners
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.trajectory.limits import Limits, Station
-from viaspline.trajectory.moving_certificate import certify_moving, timed_path
+from viaspline.trajectory.moving_certificate import certify_moving
 from viaspline.trajectory.retime import retime
+from viaspline.trajectory.timed_body import timed_path
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.outline import outline
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from viaspline.curve.path import Path
 from viaspline.robot.navigation.drive_task import DriveTask
-from viaspline.spacetime.body_past_moving import keeps_past_moving
+from viaspline.spacetime.driven_body import driven_body
+from viaspline.trajectory.moving_certificate import keeps_from_moving
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -29,5 +30,5 @@ def body_keeps_clear(
     needs = task.requirements
     if needs.footprint is None:
         return False
-    robot = task.mission.robot
-    return keeps_past_moving(needs, robot, path, law, moving, hold=hold, apart=task.apart)
+    body = driven_body(needs, task.mission.robot, path, law, hold=hold)
+    return keeps_from_moving(body, moving, needs.kept + task.apart)
