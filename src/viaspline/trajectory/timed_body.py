@@ -1,4 +1,7 @@
-"""A body on its way through time: a path, the law along it, and what goes there."""
+"""A body on its way through time: a path, the law along it, and what goes there.
+
+Tested through ``trajectory/test_moving_certificate``.
+"""
 
 from __future__ import annotations
 
