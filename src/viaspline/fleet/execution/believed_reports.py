@@ -15,7 +15,8 @@ from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_messages import ProgressReport
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent
-from viaspline.fleet.execution.judged_reports import KnownFleet, judged
+from viaspline.fleet.execution.judged_reports import NOISE_M, KnownFleet, judged
+from viaspline.fleet.execution.strayed_robots import beyond, overran, pushed_back
 from viaspline.kernels.arrays import Floats, Ints
 
 
@@ -45,6 +46,12 @@ def believed(
             continue
         robot = known.names[report.name]
         length = float(known.lengths[robot])
+        noise, come = NOISE_M + margin, min(float(known.progress[robot]), length)
+        if report.distance > state.packed.promised[robot] + noise:
+            events.append(overran(state, fleet, robot, report, margin))
+        elif report.distance < come - noise:
+            events.append(pushed_back(state, robot, report, margin))
+            known.progress[robot] = state.packed.progress[robot]
         place = min(max(report.distance - margin, 0.0), length)
         if report.arrived:
             place = math.inf if fleet.rides.vanishes[robot] else length
@@ -57,21 +64,27 @@ def believed(
         state.places[robot] = min(max(report.distance, 0.0), length)
         known.progress[robot] = max(known.progress[robot], place)
         robots.append(robot)
-        rows.append((report.time, place, *_answer(report, state, robot)))
+        rows.append((report.time, place, *_answer(report, state, fleet, robot, margin)))
     return np.array(robots, np.int64), np.array(rows, float).reshape(-1, 4), events
 
 
-def _answer(report: ProgressReport, state: FleetProgressState, robot: int) -> tuple[float, float]:
+def _answer(
+    report: ProgressReport, state: FleetProgressState, fleet: DrivenFleet, robot: int, margin: float
+) -> tuple[float, float]:
     """How far a robot takes itself to be let, and of when the last command is that it has heard.
 
-    One that doesn't say that isn't asked to let another pass first: it might obey, and nobody would
-    know, so that both would wait for ever.
+    One that is beyond that may be where it is, and as far as it needs to stop. One that doesn't say
+    that isn't asked to let another pass first: it might obey, and nobody would know, so that both
+    would wait for ever.
     """
     packed = state.packed
     if report.holds is not None and report.heard is not None:
         if math.isinf(packed.recalled_at[robot]):
             packed.recalled_at[robot] = state.time
-        return report.holds, report.heard
+        holds = report.holds
+        if report.distance > holds + NOISE_M + margin:
+            holds = beyond(fleet, robot, report, margin)
+        return holds, report.heard
     packed.recall[robot], packed.recall_place[robot] = -1, math.inf
     packed.recalled_at[robot] = math.inf
     return 0.0, -math.inf

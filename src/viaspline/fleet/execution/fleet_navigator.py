@@ -26,6 +26,7 @@ from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
 from viaspline.fleet.execution.granted_commands import commands_of
 from viaspline.fleet.execution.opened_rings import without_rings
 from viaspline.fleet.execution.rolled_over import rolled_over
+from viaspline.fleet.execution.strayed_robots import hold_apart
 from viaspline.fleet.execution.ways_from_rest import FleetMissions, check_member
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.still_world import check_still
@@ -68,6 +69,9 @@ class FleetNavigator(FleetStanding):
     there only if that is behind it. So the graph is one of robots that stop ``stops_within_m``
     short: however near to that they come to rest, nobody waits for ever. Where that needs it, a
     robot passes before one that is to pass before it by the plan; ``events`` tells of it.
+
+    A robot that comes farther than it was let, or is pushed back, is believed, and ``events`` tell
+    how near others may come to it: see ``strayed_robots``.
 
     A robot is let beyond a station when it has stood there for its time, by its reports.
 
@@ -174,6 +178,8 @@ class FleetNavigator(FleetStanding):
         dwell(self._stations, state, self._short)
         hold_before_closed(state)
         before = packed.leaders.copy()
+        strayed = {event.name for event in events if event.kind == "strayed"}
+        events += hold_apart(state, fleet, self._margin, strayed)
         swaps = np.isfinite(self._state.time) and floor(time) > floor(self._state.time)
         grants = dispatch_step(
             fleet.courses.packed, fleet.alone, orders, packed, robots, table,

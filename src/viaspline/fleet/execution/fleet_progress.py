@@ -112,7 +112,6 @@ class FleetProgressState:
             lengths=fleet.lengths,
             fastest=fleet.fastest,
             progress=self.packed.progress.copy(),
-            promised=self.packed.promised,
             departs=self.sets_out,
             heard=self.heard,
             out=self.out,

@@ -30,7 +30,7 @@ USUAL_STEP_S = 0.1
 
 FleetEventKind = Literal[
     "waits", "goes on", "swapped", "arrived", "refused", "ignored", "dead", "taken out", "silent",
-    "added", "stops", "re-planned", "has no way",
+    "added", "stops", "re-planned", "has no way", "strayed", "too near",
 ]  # fmt: skip
 
 

@@ -27,7 +27,6 @@ class KnownFleet:
         lengths: Of their paths [m], (n,).
         fastest: Each one's speed [m/s], (n,).
         progress: How far each has come [m], (n,).
-        promised: How far each may go [m], (n,).
         departs: When each sets out [s], (n,).
         heard: When each was last believed [s]; minus infinity: never, (n,).
         out: Whether a robot isn't listened to any more, (n,).
@@ -38,7 +37,6 @@ class KnownFleet:
     lengths: Floats
     fastest: Floats
     progress: Floats
-    promised: Floats
     departs: Floats
     heard: Floats
     out: Flags
@@ -50,9 +48,9 @@ def judged(
 ) -> FleetEvent | None:
     """Why a report isn't believed; None if it is.
 
-    A report from the future, of a place that the robot can't have come to or wasn't let to, of no
-    robot of the fleet, or without numbers is refused. An old one, or one of a place farther back,
-    is ignored: where a robot has been, it doesn't come back.
+    A report from the future, of a place that the robot can't have come to, of no robot of the
+    fleet, or without numbers is refused, and an old one is ignored. One of a place that it wasn't
+    let to, or farther back than it was, is believed: see ``strayed_robots``.
 
     Args:
         report: Of a robot.
@@ -90,7 +88,8 @@ def _fault(
     length, come = float(known.lengths[robot]), float(known.progress[robot])
     come, says = min(come, length), f"says {report.distance:.2f} m"
     if not -noise <= report.distance <= length + noise:
-        return "refused", f"{says} of a path of {length:.2f} m"
+        remedy = "nothing is proven beyond its ends, so have it come back"
+        return "refused", f"{says} of a path of {length:.2f} m; {remedy}"
     if report.arrived and report.distance < length - noise:
         return "refused", f"{says} and that it has arrived, which is at {length:.2f} m"
     since = max(float(known.heard[robot]), float(known.departs[robot]))
@@ -98,8 +97,6 @@ def _fault(
     can += 2.0 * margin  # it was farther than it said, and then that was taken off
     if report.distance > come + can + noise:
         return "refused", f"{says}, but it can't have come farther than {come + can:.2f} m"
-    if report.distance > known.promised[robot] + noise:
-        return "refused", f"{says}, but it may go to {known.promised[robot]:.2f} m only"
-    if report.distance < come - noise:
-        return "ignored", f"{says}, but it has been at {come:.2f} m"
+    if report.distance < come - noise and math.isinf(known.progress[robot]):
+        return "ignored", f"{says}, but it has left the world"
     return None
