@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.arrays import Ints
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inlined, inner, kernel
 from viaspline.kernels.motion.moving_distance import piece_at, piece_distance, uncertainty
 from viaspline.kernels.motion.packed_motion import (
@@ -36,6 +36,7 @@ from viaspline.kernels.timing.yielding.bit_rows import Words, add_places
 from viaspline.kernels.timing.yielding.path_tree import PathTree
 
 SPLITS = 40  # how often a chord is halved at most
+MANY_EDGES = 64  # a look at a shape with so many counts twice, with twice as many thrice
 
 
 class Driving(NamedTuple):
@@ -107,6 +108,14 @@ def _meeting(dx: float, dy: float, vx: float, vy: float, reach: float) -> tuple[
 
 
 @inlined
+def _instants(grid: PlaceGrid, begin: float, end: float) -> tuple[int, int]:
+    """The first and the last instant from one time to another; first > last: there is none."""
+    low = math.ceil((begin - grid.begin) / grid.step - 1e-9)
+    high = math.floor((end - grid.begin) / grid.step + 1e-9)
+    return int(max(low, 0)), int(min(high, grid.bases.size - 1))
+
+
+@inlined
 def _add_stretch(grid: PlaceGrid, row: int, low: float, high: float, rows: Words) -> None:
     """Block the places between two distances along the path, at an instant."""
     wide = 1e-9 + (grid.widen if row & 1 else 0.0)
@@ -143,9 +152,9 @@ def _block_by_disc(
 
 
 @inner
-def _block_by_shape(
+def _block_by_chord(
     motion: PackedMotion, i: int, piece: int, shift: float, instant: float, reach: float,
-    tree: PathTree, leaf: int, grid: PlaceGrid, row: int, rows: Words,
+    tree: PathTree, leaf: int, grid: PlaceGrid, row: int, stack: Floats, rows: Words,
 ) -> int:  # fmt: skip
     """Block what is nearer than a reach to an obstacle on a chord, which is halved for that.
 
@@ -156,7 +165,6 @@ def _block_by_shape(
     ax, ay = tree.points[leaf, 0], tree.points[leaf, 1]
     ex, ey = tree.points[leaf + 1, 0] - ax, tree.points[leaf + 1, 1] - ay
     chord = math.hypot(ex, ey)
-    stack = np.empty((SPLITS + 2, 2))
     stack[0, 0], stack[0, 1] = 0.0, 1.0
     depth, seen = 1, 0
     while depth > 0:
@@ -179,29 +187,89 @@ def _block_by_shape(
 
 
 @inner
-def _block_by_piece(
+def _block_by_shape(
+    motion: PackedMotion, i: int, piece: int, shift: float, instant: float, reach: float,
+    tree: PathTree, first: float, last: float, grid: PlaceGrid, row: int, stack: Floats,
+    rows: Words,
+) -> int:  # fmt: skip
+    """Block what is nearer than a reach to an obstacle at an instant, and between two places.
+
+    A run of chords that is near it as a whole is blocked as one.
+
+    Returns:
+        How many nodes of the path's tree, and places of chords, were looked at.
+    """
+    node, seen = 0, 0
+    while node < tree.skip.size:
+        run, circle = tree.runs[node], tree.circles[node]
+        begin, end = tree.along[run[0]], tree.along[run[1]]
+        after = tree.skip[node]
+        if end < first or begin > last:
+            node = after
+            continue
+        seen += 1
+        far = max(reach + circle[2], 0.0)
+        gap = piece_distance(motion, i, piece, shift, instant, circle[0], circle[1], far)
+        if gap < far:
+            if gap <= reach - circle[2]:
+                _add_stretch(grid, row, begin, end, rows)
+            elif run[1] - run[0] > 1:
+                after = node + 1
+            else:
+                seen += _block_by_chord(
+                    motion, i, piece, shift, instant, reach, tree, run[0], grid, row, stack, rows
+                )
+        node = after
+    return seen
+
+
+@inner
+def _shape_blocks(
     motion: PackedMotion, i: int, row: int, shift: float, begin: float, end: float,
     driving: Driving, tree: PathTree, first: float, last: float, grid: PlaceGrid, rows: Words,
 ) -> int:  # fmt: skip
-    """Block what a piece of motion blocks from one time to another, and between two places.
-
-    Returns:
-        How many chords, and places of chords, were looked at.
-    """
+    """``_piece_blocks`` for what isn't a disc that goes straight."""
     piece = motion.pieces[row]
     head = motion.shapes.heads[motion.shapes.slot[i]]
-    turning = abs(piece[TURNING])
-    is_disc = head[3] == 1.0 and (turning == 0.0 or (head[0] == 0.0 and head[1] == 0.0))
-    x, y, vx, vy = piece[X], piece[Y], piece[SPEED_X], piece[SPEED_Y]
-    core, reach = motion.reaches[i], motion.reaches[i]
-    if is_disc:
-        c, s = math.cos(piece[HEADING]), math.sin(piece[HEADING])
-        x += c * head[0] - s * head[1]
-        y += s * head[0] + c * head[1]
-        turning, core, reach = 0.0, head[2], 0.0
+    known = shift + piece[KNOWN]
+    turning, reach = abs(piece[TURNING]), motion.reaches[i]
+    straight = math.hypot(piece[SPEED_X], piece[SPEED_Y])
+    off = _keep_off(driving, reach + uncertainty(motion, i, end), straight, turning, reach)
+    circle = tree.circles[0]
+    since, until = _meeting(
+        piece[X] - circle[0], piece[Y] - circle[1], piece[SPEED_X], piece[SPEED_Y],
+        circle[2] + off,
+    )  # fmt: skip
+    low, high = _instants(grid, max(since + known, begin), min(until + known, end))
+    stack = np.empty((SPLITS + 2, 2))
+    seen = 1
+    for k in range(low, high + 1):
+        instant = grid.begin + k * grid.step
+        unsure = uncertainty(motion, i, instant + driving.step)
+        near = _keep_off(driving, head[2] + unsure, straight, turning, reach)
+        near -= head[2] + uncertainty(motion, i, instant)
+        seen += _block_by_shape(
+            motion, i, row, shift, instant, near, tree, first, last, grid, k, stack, rows
+        )
+    rings = motion.shapes.ring_edges
+    slot = motion.shapes.slot[i]
+    return seen * (1 + (rings[slot + 1] - rings[slot]) // MANY_EDGES)
+
+
+@inner
+def _disc_blocks(
+    motion: PackedMotion, i: int, row: int, shift: float, begin: float, end: float,
+    driving: Driving, tree: PathTree, first: float, last: float, grid: PlaceGrid, rows: Words,
+) -> int:  # fmt: skip
+    """``_piece_blocks`` for a disc that goes straight."""
+    piece = motion.pieces[row]
+    head = motion.shapes.heads[motion.shapes.slot[i]]
+    vx, vy = piece[SPEED_X], piece[SPEED_Y]
+    c, s = math.cos(piece[HEADING]), math.sin(piece[HEADING])
+    x = piece[X] + c * head[0] - s * head[1]
+    y = piece[Y] + s * head[0] + c * head[1]
     straight = math.hypot(vx, vy)
-    unsure = uncertainty(motion, i, end)
-    off = _keep_off(driving, core + unsure, straight, turning, reach)
+    off = _keep_off(driving, head[2] + uncertainty(motion, i, end), straight, 0.0, 0.0)
     known = shift + piece[KNOWN]
     node, seen = 0, 1
     while node < tree.skip.size:
@@ -212,33 +280,42 @@ def _block_by_piece(
             continue
         circle = tree.circles[node]
         since, until = _meeting(x - circle[0], y - circle[1], vx, vy, circle[2] + off)
-        low = math.ceil((max(since + known, begin) - grid.begin) / grid.step - 1e-9)
-        high = math.floor((min(until + known, end) - grid.begin) / grid.step + 1e-9)
-        if max(low, 0) > min(high, grid.bases.size - 1):
+        low, high = _instants(grid, max(since + known, begin), min(until + known, end))
+        if low > high:
             node = tree.skip[node]
             continue
         if run[1] - run[0] > 1:
             node += 1
             continue
-        for k in range(max(low, 0), min(high, grid.bases.size - 1) + 1):
+        for k in range(low, high + 1):
             instant = grid.begin + k * grid.step
             unsure = uncertainty(motion, i, instant + driving.step)
-            if is_disc:
-                near = _keep_off(driving, core + unsure, straight, 0.0, 0.0)
-                late = instant - known
-                seen += 1
-                _block_by_disc(tree, run[0], x + vx * late, y + vy * late, near, grid, k, rows)
-            else:
-                near = (
-                    _keep_off(driving, head[2] + unsure, straight, turning, reach)
-                    - head[2]
-                    - uncertainty(motion, i, instant)
-                )
-                seen += _block_by_shape(
-                    motion, i, row, shift, instant, near, tree, run[0], grid, k, rows
-                )
+            near = _keep_off(driving, head[2] + unsure, straight, 0.0, 0.0)
+            late = instant - known
+            seen += 1
+            _block_by_disc(tree, run[0], x + vx * late, y + vy * late, near, grid, k, rows)
         node += 1
     return seen
+
+
+@inner
+def _piece_blocks(
+    motion: PackedMotion, i: int, row: int, shift: float, begin: float, end: float,
+    driving: Driving, tree: PathTree, first: float, last: float, grid: PlaceGrid, rows: Words,
+) -> int:  # fmt: skip
+    """Block what a piece of motion blocks from one time to another, and between two places.
+
+    Returns:
+        How many chords, nodes of the path's tree and places of chords were looked at; of a shape
+        with many edges a multiple of that.
+    """
+    head = motion.shapes.heads[motion.shapes.slot[i]]
+    is_centred = head[0] == 0.0 and head[1] == 0.0
+    if head[3] == 1.0 and (motion.pieces[row, TURNING] == 0.0 or is_centred):
+        return _disc_blocks(
+            motion, i, row, shift, begin, end, driving, tree, first, last, grid, rows
+        )
+    return _shape_blocks(motion, i, row, shift, begin, end, driving, tree, first, last, grid, rows)
 
 
 @kernel
@@ -268,7 +345,7 @@ def block_places(
         begin = -np.inf
         while begin <= stop:
             if motion.pieces[row, PRESENT] != 0.0:
-                seen += _block_by_piece(
+                seen += _piece_blocks(
                     motion, i, row, shift, max(begin, start) - driving.step,
                     min(until, stop) + driving.step, driving, tree, first, last, grid, rows,
                 )  # fmt: skip
