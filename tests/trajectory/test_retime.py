@@ -306,3 +306,13 @@ def test_a_longer_wait_at_a_rest_delays_all_that_comes_after_it(max_jerk: float 
         assert later.time_at(place) == pytest.approx(law.time_at(place) + late)
     assert len(later.times) == len(law.times) + 1  # it stays at 12 m anyway, and now at its start
     assert later.duration == pytest.approx(law.duration + 9.0)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["slow", "start", "start_speed", "start_accel", "end_speed", "speed_cap", "start_time", "grid"],
+)
+@pytest.mark.parametrize("value", ["x", [1, 2], 1j, np.array([1.0, 2.0])])
+def test_what_is_no_number_is_refused_by_name(name: str, value: object) -> None:
+    with pytest.raises(GeometryError, match=name):
+        retime(line(10.0), LIMITS, **{name: value})  # type: ignore[arg-type]

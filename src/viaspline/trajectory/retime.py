@@ -8,7 +8,7 @@ import numpy as np
 
 from viaspline.curve.polynomial_curve import curve_from
 from viaspline.errors import GeometryError
-from viaspline.handed_in import all_of, check_answers, check_kind
+from viaspline.handed_in import all_of, check_answers, check_kind, finite_from, number_from
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.cells import Evaluable
 from viaspline.trajectory.coupled import Profile, Stage
@@ -109,9 +109,16 @@ def retime(
     stations = all_of("stations", stations, Station, "give Station(distance, dwell)")
     zones = all_of("zones", zones, SpeedZone, "give SpeedZone(polygon=..., max_speed_mps=...)")
     check_kind("limits", limits, Limits, "give Limits(max_speed=2, max_accel=1)")
+    slow = all_of("slow", slow, Slow, "give Slow(start, end, speed)")
+    start, start_speed = number_from("start", start), number_from("start_speed", start_speed)
+    start_accel = number_from("start_accel", start_accel)
+    start_time = finite_from("start_time", start_time)
+    speed_cap = None if speed_cap is None else number_from("speed_cap", speed_cap)
+    last = 0.0 if isinstance(end_speed, Seam) else number_from("end_speed", end_speed)
+    if grid is not None:
+        check_kind("grid", grid, int | np.integer, "give a whole number, or None")
     limited_path = limited_path_of(path, limits, grid)
     length = limited_path.length
-    last = 0.0 if isinstance(end_speed, Seam) else float(end_speed)
     _check(length, start, start_speed, start_accel, last, speed_cap)
     if isinstance(end_speed, Seam):
         limited_path, stations = checked_lap(limited_path, start), once_a_lap(stations, length)
