@@ -189,18 +189,19 @@ def _block_by_chord(
 @inner
 def _block_by_shape(
     motion: PackedMotion, i: int, piece: int, shift: float, instant: float, reach: float,
-    tree: PathTree, first: float, last: float, grid: PlaceGrid, row: int, stack: Floats,
-    rows: Words,
+    tree: PathTree, top: int, first: float, last: float, grid: PlaceGrid, row: int,
+    stack: Floats, rows: Words,
 ) -> int:  # fmt: skip
     """Block what is nearer than a reach to an obstacle at an instant, and between two places.
 
-    A run of chords that is near it as a whole is blocked as one.
+    A run of chords that is near it as a whole is blocked as one. Only what is below one node of the
+    path's tree is looked at.
 
     Returns:
         How many nodes of the path's tree, and places of chords, were looked at.
     """
-    node, seen = 0, 0
-    while node < tree.skip.size:
+    node, seen = top, 0
+    while node < tree.skip[top]:
         run, circle = tree.runs[node], tree.circles[node]
         begin, end = tree.along[run[0]], tree.along[run[1]]
         after = tree.skip[node]
@@ -228,29 +229,42 @@ def _shape_blocks(
     motion: PackedMotion, i: int, row: int, shift: float, begin: float, end: float,
     driving: Driving, tree: PathTree, first: float, last: float, grid: PlaceGrid, rows: Words,
 ) -> int:  # fmt: skip
-    """``_piece_blocks`` for what isn't a disc that goes straight."""
+    """``_piece_blocks`` for what isn't a disc that goes straight.
+
+    Runs of the path that are longer than the shape are told by when it may meet their circles, and
+    shorter ones by where it is.
+    """
     piece = motion.pieces[row]
     head = motion.shapes.heads[motion.shapes.slot[i]]
     known = shift + piece[KNOWN]
     turning, reach = abs(piece[TURNING]), motion.reaches[i]
     straight = math.hypot(piece[SPEED_X], piece[SPEED_Y])
     off = _keep_off(driving, reach + uncertainty(motion, i, end), straight, turning, reach)
-    circle = tree.circles[0]
-    since, until = _meeting(
-        piece[X] - circle[0], piece[Y] - circle[1], piece[SPEED_X], piece[SPEED_Y],
-        circle[2] + off,
-    )  # fmt: skip
-    low, high = _instants(grid, max(since + known, begin), min(until + known, end))
     stack = np.empty((SPLITS + 2, 2))
-    seen = 1
-    for k in range(low, high + 1):
-        instant = grid.begin + k * grid.step
-        unsure = uncertainty(motion, i, instant + driving.step)
-        near = _keep_off(driving, head[2] + unsure, straight, turning, reach)
-        near -= head[2] + uncertainty(motion, i, instant)
-        seen += _block_by_shape(
-            motion, i, row, shift, instant, near, tree, first, last, grid, k, stack, rows
-        )
+    node, seen = 0, 1
+    while node < tree.skip.size:
+        run, circle = tree.runs[node], tree.circles[node]
+        if tree.along[run[1]] < first or tree.along[run[0]] > last:
+            node = tree.skip[node]
+            continue
+        since, until = _meeting(
+            piece[X] - circle[0], piece[Y] - circle[1], piece[SPEED_X], piece[SPEED_Y],
+            circle[2] + off,
+        )  # fmt: skip
+        low, high = _instants(grid, max(since + known, begin), min(until + known, end))
+        is_small = circle[2] <= reach or run[1] - run[0] == 1
+        if low <= high and not is_small:
+            node += 1
+            continue
+        for k in range(low, high + 1):
+            instant = grid.begin + k * grid.step
+            unsure = uncertainty(motion, i, instant + driving.step)
+            near = _keep_off(driving, head[2] + unsure, straight, turning, reach)
+            near -= head[2] + uncertainty(motion, i, instant)
+            seen += _block_by_shape(
+                motion, i, row, shift, instant, near, tree, node, first, last, grid, k, stack, rows
+            )
+        node = tree.skip[node]
     rings = motion.shapes.ring_edges
     slot = motion.shapes.slot[i]
     return seen * (1 + (rings[slot + 1] - rings[slot]) // MANY_EDGES)
