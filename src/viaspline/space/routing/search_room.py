@@ -127,8 +127,8 @@ class SearchRoom:
         if self.anchor[3] > 0.0:
             first = self.anchor[:3] + step * np.ceil((low - self.anchor[:3]) / step - 1e-9)
         else:
-            spare = high - low - step * np.floor((high - low) / step)
-            first = low + 0.5 * spare
+            steps = np.floor((high - low) / step + 1e-9)  # what lacks but a rounding is a whole one
+            first = low + 0.5 * (high - low - step * steps)
         counts = np.maximum(np.floor((high - first) / step + 1e-9).astype(np.int64) + 1, 1)
         return PlaceLattice(np.array([*first, step]), np.minimum(counts, MOST_ASIDE))
 
