@@ -3,8 +3,8 @@
     python benchmarks/tension_advice.py [--seed 0] [--missions 40]
 
 Random missions of four via points and vector worlds in turn, in which a tension stands or none. The
-suggested one must not be slower than -0.5, 0, 0.5 and what stands there, and no sharper than one of
-them that is as fast. All are planned by themselves, without what advice knows of them.
+suggested one must not be slower than none stated, -0.5, 0, 0.5 and what stands there, and no sharper
+than one of them that is as fast. All are planned by themselves, without what advice knows of them.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from driven_missions import four_vias, vector_world
 
 import viaspline as vs
 
-BY_HAND = (-0.5, 0.0, 0.5)
+BY_HAND = (None, -0.5, 0.0, 0.5)
 STANDING = (None, -0.3, 0.2, 0.8)
 SAME = 1e-5  # of a time or a curvature
 

@@ -14,7 +14,6 @@ from viaspline.compared_tensions import (
     ComparedTensions,
     TensionTrial,
     compared_tensions,
-    tension_trial,
 )
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind, numbers_from
@@ -35,15 +34,14 @@ class TensionAdvice(ComparedByValue):
 
     Compared are whole plans, as ``plan`` makes them: round what stands in the way, proven, timed.
     What can't be planned isn't suggested. The suggested plan is no slower than any with the
-    tension -0.5, 0 or 0.5 for all spans, nor than what stands in the mission; and no sharper than
-    one of them that is as fast. Another tension than these is taken only if its path drives well,
-    and the gentlest of those that cost no more than a thousandth of the time over the fastest.
+    tension -0.5, 0 or 0.5 for all spans, nor than with none stated, nor than what stands in the
+    mission; and no sharper than one of them that is as fast. Another tension than these is taken
+    only if its path drives well, and the gentlest of those that cost no more than a thousandth of
+    the time over the fastest.
 
     Attributes:
         trials: What was planned, one tension for all spans first.
         stands: What stands in the mission; None if that is ``auto``.
-        unstated: What comes of none stated, so that lines and turns compete with the spline; it is
-            suggested only where that is what stands in the mission.
         chosen: The one that is suggested.
         spans: The via points before and after each span, m of them.
         tensions: Eq. (7)'s t that were looked at, shape (n,).
@@ -52,7 +50,6 @@ class TensionAdvice(ComparedByValue):
 
     trials: tuple[TensionTrial, ...]
     stands: TensionTrial | None
-    unstated: TensionTrial
     chosen: TensionTrial
     spans: tuple[tuple[str, str], ...]
     tensions: Floats
@@ -74,8 +71,13 @@ class TensionAdvice(ComparedByValue):
 
     @property
     def matters(self) -> bool:
-        """Whether it makes any difference what tension is taken."""
+        """Whether it makes any difference what tension is taken, or that one is stated."""
         return not all(trial.is_same_as(self.chosen) for trial in self.trials)
+
+    @property
+    def unstated(self) -> TensionTrial | None:
+        """What comes of none stated, so that lines and turns compete; None along a given line."""
+        return next((trial for trial in self.trials if trial.tension is None), None)
 
     @property
     def common(self) -> tuple[TensionTrial, ...]:
@@ -136,21 +138,15 @@ def advise_tension(
         mission, world = in_order(mission)
     check_kind("world", world, World, "give World(obstacles)")
     compared = compared_tensions(mission, world, tried)
-    stands = compared.stands
-    unstated = compared.basis[0]
-    if compared.effects is not None and (stands is None or stands.tension is not None):
-        unstated = tension_trial(mission, world, None)
-    return _advice(mission, compared, unstated, tried)
+    return _advice(mission, compared, tried)
 
 
-def _advice(
-    mission: Mission, compared: ComparedTensions, unstated: TensionTrial, tried: Floats
-) -> TensionAdvice:
+def _advice(mission: Mission, compared: ComparedTensions, tried: Floats) -> TensionAdvice:
     sequence = via_sequence_of(with_tension(mission, 0.0))
     names = [via.name for via in sequence.vias]
     names += names[:1] if sequence.closed else []
     return TensionAdvice(
-        tuple(compared.trials), compared.stands, unstated, compared.chosen,
+        tuple(compared.trials), compared.stands, compared.chosen,
         tuple(pairwise(names)), tried, compared.effects,
     )  # fmt: skip
 

@@ -18,7 +18,14 @@ from viaspline.kernels.arrays import Floats
 from viaspline.machine.measure_drivability import least_radius
 from viaspline.mission.model import Mission
 from viaspline.mission.spline_spec import SplineSpec
-from viaspline.mission.stated_tension import StatedTension, with_tension
+from viaspline.mission.stated_tension import (
+    REFERENCES,
+    SAME_SHARE,
+    SPARE_SHARE,
+    StatedTension,
+    best_stated,
+    with_tension,
+)
 from viaspline.mission.strip import has_line
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.shared_searches import SharedSearches
@@ -30,12 +37,6 @@ from viaspline.whole_plan import Plan
 from viaspline.world.world import World
 
 TRIED_TENSIONS = (-0.5, -0.3, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)
-REFERENCES = (0.0, -0.5, 0.5)
-"""Tensions that anybody would try by hand: advice is never worse than any of them."""
-SPARE_SHARE = 1e-3
-"""Part of the time that may be spent on a gentler path."""
-SAME_SHARE = 1e-6
-"""Part of a time or a curvature by which two plans that are the same may differ."""
 MORE_AMONG_S = 4.0
 """What paths past what moves may spend with all tensions but these [s of the reference machine]: as
 much as those with one of them."""
@@ -133,7 +134,7 @@ def compared_tensions(mission: Mission, world: World, tried: Floats) -> Compared
     stands = None if mission.spline.tension == "auto" else _as_it_stands(mission, world)
     basis = [] if stands is None else [stands]
     if has_line(mission.route):  # whose line has no tension
-        basis = basis or [tension_trial(mission, world, 0.0)]
+        basis = basis or [_planned(with_tension(mission, 0.0), world, 0.0)]
         return ComparedTensions(stands, basis, basis, None)
     by_hand = [t for t in REFERENCES if stands is None or t != stands.tension]
     shared = SharedSearches()
@@ -149,11 +150,6 @@ def compared_tensions(mission: Mission, world: World, tried: Floats) -> Compared
     trials += _refined(more, effects, fastest)
     shared.forget()
     return ComparedTensions(stands, basis, trials, effects)
-
-
-def tension_trial(mission: Mission, world: World, tension: StatedTension) -> TensionTrial:
-    """The whole plan of a mission with another tension."""
-    return _planned(with_tension(mission, tension), world, tension)
 
 
 def _as_it_stands(mission: Mission, world: World) -> TensionTrial:
@@ -252,8 +248,4 @@ def _best(trials: Sequence[TensionTrial], basis: Sequence[TensionTrial]) -> Tens
     if not np.isfinite(bar) and basis[0].error is not None:
         raise basis[0].error
     fair = [trial for trial in trials if trial in basis or trial.drives_well]
-    fastest = min(trial.cost[0] for trial in fair)
-    limit = min(bar * (1.0 + SAME_SHARE), fastest * (1.0 + SPARE_SHARE))
-    near = [trial for trial in fair if trial.cost[0] <= limit]
-    peak = min(trial.cost[1] for trial in near)
-    return next(trial for trial in near if trial.cost[1] <= peak * (1.0 + SAME_SHARE) + SAME_SHARE)
+    return fair[best_stated([trial.cost for trial in fair], bar)]

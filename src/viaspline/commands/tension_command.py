@@ -27,9 +27,9 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
     r"""Advise a tension: plan with many, and say what each does.
 
     Whole plans are compared, first by time, then by peak curvature. What it suggests is no worse
-    than -0.5, 0 or 0.5 for all spans, nor than what the mission says; where tension makes no
-    difference, it says so. Writes tension.png. A mission with spline: {tension: auto} takes what
-    would be suggested.
+    than -0.5, 0 or 0.5 for all spans, nor than none stated, nor than what the mission says; where
+    tension makes no difference, it says so. Writes tension.png. A mission with spline: {tension:
+    auto} takes what would be suggested.
 
     \b
     Example:

@@ -38,7 +38,7 @@ class SplineSpec(
     Attributes:
         tension: Eq. (7)'s t: 1 is the polyline, 0 Catmull-Rom, -1 loose. One number, or one for
             each span between the points of the route, or ``auto``: the one with
-            which the whole plan is fastest, of many that are tried.
+            which the whole plan is fastest, of many that are tried, or none.
         slack: The tension by its other name, s = (1 - t) / 2. Give one of the two.
         knots: How far apart the points are in parameter: equally, by the root of their distance,
             by their distance.

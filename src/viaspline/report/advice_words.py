@@ -5,6 +5,8 @@ Tested through ``test_advice``.
 
 from __future__ import annotations
 
+import math
+
 from viaspline.advice import TensionAdvice
 from viaspline.mission.stated_tension import StatedTension
 from viaspline.report.units import seconds
@@ -33,20 +35,21 @@ def advice_words(advice: TensionAdvice) -> str:
     """What to take, and what that gains over what stands in the mission."""
     time, peak = advice.chosen.cost
     if not advice.matters:
-        none = f"There is nothing to choose: {_why_none(advice)} ({seconds(time)})."
-        return none + _unstated(advice)
+        return f"There is nothing to choose: {_why_none(advice)} ({seconds(time)})."
     tension = advice.suggested
     take = "state no tension" if tension is None else f"tension {tension_words(tension)}"
-    if advice.effects is not None and not advice.keeps_spline:
+    if tension is None:
+        take += ", so that lines and turns are laid where they are sooner than the spline"
+    elif advice.effects is not None and not advice.keeps_spline:
         take += ", lines and turns where that is blocked or too sharp"
     drive = f"{seconds(time)}, at most {peak:.3g} 1/m"
-    return f"Suggested: {take}: {drive}{_gain(advice)}.{_unstated(advice)}"
+    return f"Suggested: {take}: {drive}{_gain(advice)}."
 
 
 def _gain(advice: TensionAdvice) -> str:
     stands = advice.stands
     if stands is None:
-        return ""
+        return _gain_by_stating(advice)
     if stands.plan is None:
         return "; with what stands there is no plan"
     if stands is advice.chosen:
@@ -57,12 +60,17 @@ def _gain(advice: TensionAdvice) -> str:
     return f"; {seconds(gained)} faster than as it stands"
 
 
-def _unstated(advice: TensionAdvice) -> str:
-    """That stating none is faster, where it is."""
-    gained = advice.chosen.cost[0] - advice.unstated.cost[0]
-    if gained < LEAST_GAIN_S:
+def _gain_by_stating(advice: TensionAdvice) -> str:
+    """How much sooner one is than none, or none than the best that is stated."""
+    of_stated = [trial.cost[0] for trial in advice.trials if trial.tension is not None]
+    others = [trial.cost[0] for trial in advice.trials if trial.tension is None]
+    than, of = "any that is stated", of_stated
+    if advice.suggested is not None:
+        than, of = "with none stated", others
+    gained = min(of, default=math.inf) - advice.chosen.cost[0]
+    if not LEAST_GAIN_S <= gained < math.inf:
         return ""
-    return f" With none stated, lines and turns are {seconds(gained)} faster."
+    return f"; {seconds(gained)} faster than {than}"
 
 
 def _why_none(advice: TensionAdvice) -> str:

@@ -21,14 +21,14 @@ from viaspline.report.units import metres
 MAX_MAPS_NAMED = 4  # in the words about a world, before the rest is only counted
 
 
-def tension(mission: Mission) -> float | list[float]:
-    """Eq. (7)'s tension, whichever of its two names the mission uses; 0 when it uses none."""
+def tension(mission: Mission) -> float | list[float] | None:
+    """Eq. (7)'s tension, whichever of its two names the mission uses; None when it uses none."""
     spline = mission.spline
     assert spline.tension != "auto", "a plan's mission has the tension that was advised"
     if spline.tension is not None:
         return list(spline.tension) if isinstance(spline.tension, tuple) else spline.tension
     if spline.slack is None:
-        return 0.0
+        return None
     if isinstance(spline.slack, tuple):
         return [1 - 2 * slack for slack in spline.slack]
     return 1 - 2 * spline.slack
@@ -39,7 +39,8 @@ def spline_words(mission: Mission) -> str:
     spline = mission.spline
     if mission.route.corridor is not None and mission.route.corridor.line is not None:
         return "least curvature along the corridor"
-    value = 0.0 if spline.tension == "auto" else tension(mission)
+    value = None if spline.tension == "auto" else tension(mission)
+    value = 0.0 if value is None else value
     if spline.tension == "auto":
         pull = "the tension that is advised"
     elif isinstance(value, list):
@@ -71,8 +72,16 @@ def summary(mission: Mission) -> list[tuple[str, str]]:
         ("route", _route(mission)),
         ("world", world_words(mission.world, mission.route.corridor)),
         ("robot", robot_words(mission.robot)),
-        ("spline", spline_words(mission)),
+        ("spline", spline_words(mission) + _stated_words(mission)),
     ]
+
+
+def _stated_words(mission: Mission) -> str:
+    """That lines and turns compete with the spline, where no tension is stated."""
+    is_led = mission.route.corridor is not None and mission.route.corridor.line is not None
+    if is_led or mission.spline.tension == "auto" or tension(mission) is not None:
+        return ""
+    return ", as none is stated; lines and turns where they are sooner"
 
 
 def _route(mission: Mission) -> str:

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Final
 
 from viaspline.errors import PlanningError
 from viaspline.mission.model import Mission
-from viaspline.mission.stated_tension import with_tension
+from viaspline.mission.stated_tension import REFERENCES, best_stated, with_tension
 from viaspline.space.spatial_plan import SpatialPlan
 
 TRIED_TENSIONS: Final = (0.0, -0.5, -0.25, 0.25, 0.5, 0.75)
-"""All led legs are lines and turns, whatever the tension: few are enough for the others."""
-
-SPARE_SHARE: Final = 1e-3
-"""What costs so much more at most is as good: then the gentlest counts."""
+"""All led legs are lines and turns, whatever the tension: few are enough for the others. The first
+is what is flown with none stated."""
 
 
 def by_soonest_tension(mission: Mission, planned: Callable[[Mission], SpatialPlan]) -> SpatialPlan:
     """The plan with the tension by which all of it is soonest, or shortest if that is asked for.
+
+    It is no later than with none stated or one by hand, and the gentlest of those that are nearly
+    as soon.
 
     Args:
         mission: In space; its tension is ``auto``.
@@ -37,9 +39,13 @@ def by_soonest_tension(mission: Mission, planned: Callable[[Mission], SpatialPla
     if not plans:
         assert refused is not None
         raise refused
-    least = min(_cost(plan) for plan in plans)
-    near = [plan for plan in plans if _cost(plan) <= least * (1.0 + SPARE_SHARE)]
-    return min(near, key=lambda plan: plan.path.max_curvature()[0])
+    costs = [(_cost(plan), plan.path.max_curvature()[0]) for plan in plans]
+    by_hand = [
+        cost
+        for plan, (cost, _) in zip(plans, costs, strict=True)
+        if plan.mission.spline.tension in REFERENCES
+    ]
+    return plans[best_stated(costs, min(by_hand, default=math.inf))]
 
 
 def _cost(plan: SpatialPlan) -> float:

@@ -68,14 +68,14 @@ def test_an_empty_world_has_nothing_to_keep_clear_of() -> None:
 @pytest.mark.parametrize(
     ("spline", "value"),
     [
-        ({}, 0.0),
+        ({}, None),
         ({"tension": 0.25}, 0.25),
         ({"slack": 0.5}, 0.0),
         ({"slack": [0.5, 0.0]}, [0.0, 1.0]),
     ],
 )
 def test_both_names_of_the_tension_are_understood(
-    spline: dict[str, object], value: float | list[float]
+    spline: dict[str, object], value: float | list[float] | None
 ) -> None:
     route = {"start": [0, 0], "via": [[5, 5]], "goal": [9, 0]}
     assert tension(Mission.model_validate({"route": route, "spline": spline})) == value
@@ -88,6 +88,7 @@ def test_a_mission_is_summed_up_in_four_lines(mission: Mission) -> None:
     assert "1 station with stops of 5 s" in lines["route"]
     assert "2 known obstacles (1 circle and 1 polygon), 1 unseen obstacle" in lines["world"]
     assert "tension 0 (slack 0.5)" in spline_words(mission)
+    assert "as none is stated" in lines["spline"]
 
 
 GRID = Grid(np.eye(20, 30, 4, dtype=bool), 0.5, source="maps/depot.yaml")

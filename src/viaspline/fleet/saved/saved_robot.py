@@ -136,6 +136,8 @@ def _with_told_tension(mission: Mission, file: PlanFile) -> Mission:
     """A mission with the tension that it was planned with, if it left that to the planner."""
     if mission.spline.tension != "auto":
         return mission
+    if file.part("mission", "tension") is None:
+        return with_tension(mission, None)
     said = file.numbers("mission", "tension").tolist()
     return with_tension(mission, tuple(said) if isinstance(said, list) else said)
 

@@ -41,7 +41,7 @@ def plan_contents(plan: Plan, name: str) -> Contents:
 def mission_contents(mission: Mission, folder: Path) -> Contents:
     """The mission as it was planned, beside its plan, which is read again with it.
 
-    Its via points are in the order in which they are served, and its tension is a number.
+    Its via points are in the order in which they are served, and its tension is a number, or none.
 
     Args:
         mission: That of a plan.

@@ -32,8 +32,6 @@ def _trials(advice: TensionAdvice, name: str) -> Table:
     for column in ("tension", "drive", "peak curvature", "length", "clearance", ""):
         table.add_column(column, justify="right" if column else "left")
     others = [trial for trial in advice.trials if np.isnan(trial.level)]
-    if advice.effects is not None and advice.unstated not in others:
-        others.append(advice.unstated)
     for trial in (*advice.common, *others):
         table.add_row(tension_words(trial.tension), *_figures(trial), _note(advice, trial))
     return table

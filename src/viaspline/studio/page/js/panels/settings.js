@@ -101,10 +101,12 @@ export class Settings {
     const { store } = this.app;
     const list = tensionsOf(store.doc);
     const isOwn = new Set(list).size > 1;
+    const { tension: stated, slack } = store.doc.spline ?? {};
+    const isUnstated = (stated ?? slack ?? null) === null;
     return slider({
       label: "Tension", value: list[0] ?? 0, min: -1, max: 1, step: 0.05, ends: ["loose", "straight"],
       words: (value) => value.toFixed(2),
-      shown: store.doc.spline?.tension === "auto" ? "auto" : isOwn ? "differs by span" : undefined,
+      shown: isUnstated ? "none stated" : stated === "auto" ? "auto" : isOwn ? "differs by span" : undefined,
       set: (value) => store.edit(setTension(store.doc, null, value), { merge: "tension:all" }),
       ...this.sliding,
     });
