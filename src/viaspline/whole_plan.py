@@ -162,7 +162,7 @@ def with_error(
     """
     requirements = Requirements.of(mission, error)
     if spending is not None:
-        requirements = replace(requirements, shared=spending.shared)
+        requirements = replace(requirements, shared=spending.shared, poses=spending.poses)
     try:
         found = find_drive(mission, world, requirements)
     except PlanningError as problem:

@@ -16,6 +16,7 @@ from viaspline.planning.methods.hybrid_astar_search import HybridAStar
 from viaspline.planning.problem.method import Found, GaveUp, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.hybrid_astar.pose_search import SEARCH_EFFORTS
@@ -48,6 +49,19 @@ def pen(**robot: Any) -> TurnProblem:
     """A start that faces the closed end of a pen."""
     known = [{"polygon": ring} for ring in PEN]
     return problem(known, {"at": [4, 0], "heading_deg": 0}, [-30, 0], **robot)
+
+
+def test_searches_that_share_what_they_may_spend_give_up_once_that_is_spent() -> None:
+    asked = problem([], {"at": [0, 0], "heading_deg": 0}, [-3, 1])
+    poses = WorkBudget(12.0)
+    path = asked.path
+    limited = replace(path, requirements=replace(path.requirements, poses=poses))
+    first = HybridAStar().lay(replace(asked, path=limited))
+    assert isinstance(first, Found)
+    np.testing.assert_array_equal(first.value.spans, HybridAStar().lay(asked).value.spans)
+    assert poses.spent > 0.0
+    poses.spent = poses.limit
+    assert isinstance(HybridAStar().lay(replace(asked, path=limited)), GaveUp)
 
 
 def test_a_loop_round_the_turning_circle_is_found() -> None:

@@ -11,6 +11,7 @@ Tested through ``fleet/laying/test_lay_paths``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -21,7 +22,11 @@ from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces
 from viaspline.fleet.laying.rests_as_obstacles import world_with_rests
 from viaspline.fleet.laying.soon_laid import check_soon_laid
 from viaspline.fleet.laying.step_aside import can_step_aside, stepped_aside
-from viaspline.fleet.laying.stranded_robots import no_way_past_stranded, stranded_at_point
+from viaspline.fleet.laying.stranded_robots import (
+    POSES_S,
+    no_way_past_stranded,
+    stranded_at_point,
+)
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan_in
@@ -89,7 +94,7 @@ def lay_among_rests(
         raise stranded_at_point(mission, reach, rests.places[min(stuck & past)])
     eased = _eased(rests, points, reach, past | own, KEPT_MORE_M)
     round_them: set[int] = set()
-    plan = alone
+    plan, poses = alone, WorkBudget(math.inf, poses=WorkBudget(POSES_S))
     for _ in range(MAX_ROUNDS):
         out = own | past
         met = eased.near(plan.path.spans, reach + ENOUGH_MORE_M, out)
@@ -105,7 +110,7 @@ def lay_among_rests(
             plan = aside
             break
         round_them.update(_more_in_the_way(eased, reach, round_them, others, seen))
-        plan, past = _laid(alone, mission, reach, eased, round_them, past, work)
+        plan, past = _laid(alone, mission, reach, eased, round_them, past, work, poses)
         round_them -= past
     passed = rests.near(plan.path.spans, reach, own).tolist()
     stands = [k for k in passed if k in stuck]
@@ -212,6 +217,7 @@ def _laid(
     round_them: set[int],
     past: frozenset[int],
     work: WorkBudget | None,
+    poses: WorkBudget,
 ) -> tuple[Plan, frozenset[int]]:
     """The plan round as many places as there is a way round, and those that it may pass.
 
@@ -225,7 +231,7 @@ def _laid(
             among = world_with_rests(alone, mission, reach, rests, trying, KEPT_MORE_M)
             if work is not None:
                 check_soon_laid(mission, among, alone.tracking_error, work)
-            found = plan_in(mission, among)
+            found = plan_in(mission, among, poses)
         except SpentBudgetError:
             raise
         except (PlanningError, GeometryError) as error:

@@ -8,6 +8,7 @@ Tested through ``fleet/laying/test_lay_paths``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -17,6 +18,11 @@ from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces
 from viaspline.fleet.laying.rests_as_obstacles import LEAST_DISC_M, own_radii, world_with_rests
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan_in
+from viaspline.planning.problem.work_budget import WorkBudget
+
+POSES_S = 4.0
+"""What searches among poses may spend on ways round resting places, for each robot [s of the
+reference machine]. Where they spent it, it is taken that there is no way, and not proven."""
 
 TRIED = ("ways round robots that can't leave",)
 
@@ -61,7 +67,8 @@ def no_way_past_stranded(
     leave = f"leave {who} out" if len(names) == 1 else f"leave one of {who} out"
     reason = f"{who}, which can't leave the start, is in the way"
     try:
-        plan_in(mission, world_with_rests(alone, mission, reach, rests, stuck, 0.0))
+        among = world_with_rests(alone, mission, reach, rests, stuck, 0.0)
+        plan_in(mission, among, WorkBudget(math.inf, poses=WorkBudget(POSES_S)))
     except (PlanningError, GeometryError) as error:
         is_exact = own_radii(alone, mission, reach, rests.rows[list(stuck)]).min() >= LEAST_DISC_M
         if isinstance(error, PlanningError):

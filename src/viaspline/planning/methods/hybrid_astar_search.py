@@ -43,10 +43,11 @@ class HybridAStar:
         """See ``Method``."""
         path, rho = problem.path, problem.rho
         most = self.max_poses_s if math.isinf(bound) else self.max_gain_s
-        chains = via_route_chains(
-            path.sequence, path.world, path.requirements, rho, RAMP * rho, problem.spots,
-            WorkBudget(most), self.efforts, [sides.closed for sides in path.sides],
-        )  # fmt: skip
+        with (path.requirements.poses or WorkBudget(math.inf)).share(most) as poses:
+            chains = via_route_chains(
+                path.sequence, path.world, path.requirements, rho, RAMP * rho, problem.spots,
+                poses, self.efforts, [sides.closed for sides in path.sides],
+            )  # fmt: skip
         if isinstance(chains, NotFound):
             return _nothing(path, rho, chains)
         spans = np.concatenate([chain.spans for chain in chains])

@@ -51,6 +51,7 @@ class Requirements(ComparedByValue):
             what stands in it.
         budget: What may be spent on looking for a path; None: as much as it takes.
         shared: Searches that other plans of the mission have in common with this one, if any.
+        poses: What all searches among poses may spend together; None: each as much as usual.
         parts: What parts have come to of the path that is laid with these; None: they aren't kept.
             Other requirements that are made of these don't have them.
     """
@@ -70,6 +71,7 @@ class Requirements(ComparedByValue):
     detours: Detours | None = None
     budget: WorkBudget | None = None
     shared: SharedSearches | None = field(default=None, compare=False, repr=False)
+    poses: WorkBudget | None = field(default=None, compare=False, repr=False)
     parts: PartsFound | None = field(default=None, init=False, compare=False, repr=False)
 
     def spend(self, cost: float) -> None:

@@ -119,6 +119,8 @@ class WorkBudget:
             that stands goes on with them in its next step.
         has_gained: Whether one of them is new.
         shared: Searches that the plans it is spent on have in common, if any.
+        poses: What all searches among poses of the plans it is spent on may spend together; None:
+            each as much as usual.
 
     Example:
         >>> budget = WorkBudget(0.01)
@@ -132,6 +134,7 @@ class WorkBudget:
     finished: dict[Hashable, Any] = field(default_factory=dict, repr=False)
     has_gained: bool = False
     shared: SharedSearches | None = None
+    poses: WorkBudget | None = field(default=None, repr=False)
     _under_way: list[Hashable] = field(default_factory=list, init=False, repr=False)
     """What was taken up for parts that aren't over yet, the first one first."""
 
