@@ -55,6 +55,25 @@ def test_two_that_cannot_change_ends_are_refused_with_the_stretch() -> None:
         assert planned(one, other, world=AISLE).served
 
 
+def test_what_is_tried_for_those_that_are_not_served_is_told_as_it_goes_on() -> None:
+    told: list[tuple[str, float]] = []
+    ends = ((2, 26), (28, 4), (4, 24))
+    robots = [robot(f"r{k}", [a, 0.8], [b, 0.8]) for k, (a, b) in enumerate(ends)]
+    bay = {"bounds": [0, 0, 30, 3], "known": [
+        {"polygon": [[0, 1.6], [14, 1.6], [14, 3], [0, 3]]},
+        {"polygon": [[15.2, 1.6], [30, 1.6], [30, 3], [15.2, 3]]},
+    ]}  # fmt: skip
+    fleet = Fleet.model_validate(asked(*robots, world=bay))
+    plan_fleet(fleet, progress=lambda stage, share: told.append((stage, share)))
+    stages = list(dict.fromkeys(stage for stage, _ in told))
+    assert stages[-1] == "proving"
+    for stage in ("laying paths past others", "looking for what would help"):
+        shares = [share for one, share in told if one == stage]
+        assert len(shares) > len(robots)
+        assert shares == sorted(shares)
+        assert 0.0 <= shares[0] < shares[-1] <= 1.0
+
+
 def test_who_rests_in_an_aisle_is_to_leave_and_then_all_are_served() -> None:
     plan = in_aisle((2, 28), (10, 20))
     assert set(plan.plans) == {"r1"}

@@ -18,6 +18,7 @@ from viaspline.fleet.laying.layings_with_room import layings_with_room
 from viaspline.fleet.relaid_fleet import driven_alone
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.time_paths import Timing
+from viaspline.fleet.told_progress import FleetProgress, untold
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.planning.alternatives.solution import Solution
@@ -40,7 +41,9 @@ Serve = Callable[[dict[int, int]], TimedFleet]
 """Times robots as if nothing moved, but for those that stand at their starts."""
 
 
-def among_moving(fleet: Fleet, ways: FleetWays, serve: Serve, work: LayingWork) -> TimedFleet:
+def among_moving(
+    fleet: Fleet, ways: FleetWays, serve: Serve, work: LayingWork, tell: FleetProgress = untold
+) -> TimedFleet:
     """Time a fleet so that every robot that is served is clear of what moves.
 
     Args:
@@ -48,6 +51,7 @@ def among_moving(fleet: Fleet, ways: FleetWays, serve: Serve, work: LayingWork) 
         ways: The paths of its robots where nothing moves.
         serve: Times robots along them.
         work: What may be spent on laying robots anew.
+        tell: Told of that.
     """
     reasons = {k: ENDLESS for k, one in enumerate(ways.members) if one.mission.route.is_patrol}
     while True:
@@ -56,9 +60,9 @@ def among_moving(fleet: Fleet, ways: FleetWays, serve: Serve, work: LayingWork) 
         met = [name for name, plan in plans.items() if not moving_proof(fleet, plan).holds]
         if not met:
             return replace(timed, reasons=reasons)
-        found = _relaid(fleet, timed, plans, met, work)
+        found = _relaid(fleet, timed, plans, met, work, tell)
         if isinstance(found, TimedFleet):
-            return replace(_sooner(fleet, found, met, work), reasons=reasons)
+            return replace(_sooner(fleet, found, met, work, tell), reasons=reasons)
         names = ways.courses.names
         reasons = {**reasons, **{names.index(name): why for name, why in found.items()}}
 
@@ -96,15 +100,16 @@ def proven_among(fleet: Fleet, plan: Plan) -> Plan:
 
 
 def _relaid(
-    fleet: Fleet, timed: TimedFleet, plans: Mapping[str, Plan], met: list[str], work: LayingWork
-) -> TimedFleet | dict[str, tuple[str, str]]:
+    fleet: Fleet, timed: TimedFleet, plans: Mapping[str, Plan], met: list[str], work: LayingWork,
+    tell: FleetProgress,
+) -> TimedFleet | dict[str, tuple[str, str]]:  # fmt: skip
     """The fleet with other paths and laws for those that would be met; or why some have none."""
     fixed = {name: plan for name, plan in plans.items() if name not in met}
     ranks = {one.name: one.priority for one in timed.ways.members}
     names = sorted(met, key=lambda name: -ranks[name])
     failed: dict[str, tuple[str, str]] = {}
     known = dict(zip(timed.ways.courses.names, timed.ways.planar, strict=True))
-    for found in layings_with_room(fleet, fixed, names, known, work):
+    for found in layings_with_room(fleet, fixed, names, known, work, tell):
         failed = {one.name: (one.reason, one.remedy) for one in found.not_served}
         if not failed:
             kept = _as_laid(fleet, timed, fixed, found.plans)
@@ -120,7 +125,9 @@ def _relaid(
     }
 
 
-def _sooner(fleet: Fleet, timed: TimedFleet, met: list[str], work: LayingWork) -> TimedFleet:
+def _sooner(
+    fleet: Fleet, timed: TimedFleet, met: list[str], work: LayingWork, tell: FleetProgress
+) -> TimedFleet:
     """The fleet with new laws for those that wait for robots with other laws now, if that helps.
 
     Args:
@@ -128,6 +135,7 @@ def _sooner(fleet: Fleet, timed: TimedFleet, met: list[str], work: LayingWork) -
         timed: With other laws for those that would have been met.
         met: Their names.
         work: What may be spent.
+        tell: Told of that.
     """
     plans, ways = timed.planar_plans(), timed.ways
     alone = dict(zip(ways.courses.names, ways.rides.alone.tolist(), strict=True))
@@ -137,7 +145,7 @@ def _sooner(fleet: Fleet, timed: TimedFleet, met: list[str], work: LayingWork) -
         for name, plan in plans.items()
         if name not in met and plan.trajectory.end_time > departs[name] + alone[name] + LATE_S
     ]
-    again = _relaid(fleet, timed, plans, late, work) if late else None
+    again = _relaid(fleet, timed, plans, late, work, tell) if late else None
     if not isinstance(again, TimedFleet):
         return timed
     return min(timed, again, key=_arrivals)

@@ -32,14 +32,12 @@ from viaspline.fleet.swerved_fleet import swerved_fleet
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.rides import goal_stays
 from viaspline.fleet.timing.time_paths import MANY
+from viaspline.fleet.told_progress import FleetProgress, untold
 from viaspline.fleet.unserved.explain_unserved import explain_unserved
 from viaspline.fleet.unserved.unserved_beside import unserved_beside
 from viaspline.formats.asked_for import AskedFleet, asked_fleet
 from viaspline.handed_in import check_callable, number_from
 from viaspline.mission.fleet.fleet import Fleet
-
-FleetProgress = Callable[[str, float], None]
-"""Called with what is being done, and the share of it that is done."""
 
 PERIODS = 2
 """Of patrols that never end so many periods are planned, from when nobody else moves any more."""
@@ -135,9 +133,9 @@ def plan_fleet(
     if paths is None:
         paths = crossing_paths(fleet, laying, workers=workers, alone=alone)
     tell("timing", 0.0)
-    timed = _timed(fleet, paths, improve, periods, improving)
+    timed = _timed(fleet, paths, improve, periods, tell)
+    unserved = _unserved(fleet, paths, timed, TRIES_S, tell)
     tell("proving", 0.0)
-    unserved = _unserved(fleet, paths, timed, TRIES_S)
     return _planned(fleet, timed, (*paths.laid.not_served, *unserved))
 
 
@@ -151,25 +149,28 @@ def _alone(
 
 
 def _timed(
-    fleet: Fleet, paths: CrossingPaths, improve: float, periods: int,
-    improving: Callable[[float], None],
-) -> TimedFleet:  # fmt: skip
+    fleet: Fleet, paths: CrossingPaths, improve: float, periods: int, tell: FleetProgress
+) -> TimedFleet:
     """The robots of a fleet timed along its paths, or along others."""
+
+    def improving(share: float) -> None:
+        tell("improving", share)
+
     still, work = without_motion(fleet), LayingWork.of(RELAY_S)
     ways = FleetWays.of(still, paths)
     if still is not fleet:
-        return among_moving(
-            fleet, ways,
-            lambda out: _sooner(_of_those_that_end(still, ways, out, work), improve, improving),
-            work,
-        )  # fmt: skip
+
+        def serve(out: dict[int, int]) -> TimedFleet:
+            return _sooner(_of_those_that_end(still, ways, out, work, tell), improve, improving)
+
+        return among_moving(fleet, ways, serve, work, tell)
     if _has_patrols(ways):
         timed = timed_patrols(
             ways, fleet.separation_m, periods,
-            lambda among, out: _of_those_that_end(fleet, among, out, work),
+            lambda among, out: _of_those_that_end(fleet, among, out, work, tell),
         )  # fmt: skip
         return _sooner(timed, improve, improving)
-    timed = served_along(fleet, paths, REROUTE_S, work)
+    timed = served_along(fleet, paths, REROUTE_S, work, tell)
     return _improved(fleet, timed, paths, improve, improving) if improve > 0.0 else timed
 
 
@@ -216,11 +217,12 @@ def is_settled_by_priority(plan: FleetPlan, paths: CrossingPaths) -> bool:
 
 
 def _unserved(
-    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, budget: float
-) -> Sequence[NotServed]:
+    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, budget: float,
+    tell: FleetProgress = untold,
+) -> Sequence[NotServed]:  # fmt: skip
     """Why robots couldn't be timed, and what would help."""
     if not fleet.world.moving and not _has_patrols(timed.ways):
-        return explain_unserved(fleet, paths, timed, budget)
+        return explain_unserved(fleet, paths, timed, budget, tell)
     return unserved_beside(timed)
 
 
@@ -235,7 +237,7 @@ def _has_patrols(ways: FleetWays) -> bool:
 
 
 def _of_those_that_end(
-    fleet: Fleet, ways: FleetWays, left_out: dict[int, int], work: LayingWork
+    fleet: Fleet, ways: FleetWays, left_out: dict[int, int], work: LayingWork, tell: FleetProgress
 ) -> TimedFleet:
     """Robots timed where patrols have their laws already, or something moves.
 
@@ -244,13 +246,14 @@ def _of_those_that_end(
         ways: Of its robots.
         left_out: Robots that stand at their starts, each with one that is in its way.
         work: What may be spent on laying robots anew.
+        tell: Told of that.
     """
     timed = TimedFleet.by_priority(ways, left_out)
     if not timed.blocked:
         return timed
     if left_out:
         return timed.past_standing_ones(left_out)
-    timed = relaid_fleet(fleet, timed, work) or timed
+    timed = relaid_fleet(fleet, timed, work, tell) or timed
     return timed.past_standing_ones() if timed.blocked else timed
 
 

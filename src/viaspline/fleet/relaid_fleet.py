@@ -22,18 +22,22 @@ from viaspline.fleet.laying.layings_with_room import layings_with_room
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import Timing
+from viaspline.fleet.told_progress import FleetProgress, untold
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.whole_plan import fastest_law, stations
 
 
-def relaid_fleet(fleet: Fleet, timed: TimedFleet, work: LayingWork) -> TimedFleet | None:
+def relaid_fleet(
+    fleet: Fleet, timed: TimedFleet, work: LayingWork, tell: FleetProgress = untold
+) -> TimedFleet | None:
     """A fleet timed along other paths for those that are blocked.
 
     Args:
         fleet: What is asked for.
         timed: With robots that are blocked.
         work: What may be spent.
+        tell: Told what of that is spent, each time that a robot is laid.
 
     Returns:
         None where no more are served by it.
@@ -45,7 +49,7 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet, work: LayingWork) -> TimedFlee
     names = [ways.members[k].name for k in wanted]
     known = dict(zip(ways.courses.names, ways.planar, strict=True))
     best: TimedFleet | None = None
-    for relaid in layings_with_room(fleet, fixed, names, known, work):
+    for relaid in layings_with_room(fleet, fixed, names, known, work, tell):
         if len(relaid.plans) <= len(fixed):
             continue
         again = _along(fleet, ways, fixed, relaid.plans)

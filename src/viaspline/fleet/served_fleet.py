@@ -14,6 +14,7 @@ from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet
 from viaspline.fleet.straight_fleet import straight_fleet
 from viaspline.fleet.timed_fleet import TimedFleet
+from viaspline.fleet.told_progress import FleetProgress, untold
 from viaspline.fleet.unserved.pair_refusal import cannot_both_be_served
 from viaspline.mission.fleet.fleet import Fleet
 
@@ -26,8 +27,9 @@ TRIAL_REROUTE_S, TRIAL_RELAY_S = 2.0, 4.0
 
 
 def served_fleet(
-    fleet: Fleet, paths: CrossingPaths, reroute: float, work: LayingWork
-) -> TimedFleet:
+    fleet: Fleet, paths: CrossingPaths, reroute: float, work: LayingWork,
+    tell: FleetProgress = untold,
+) -> TimedFleet:  # fmt: skip
     """Time robots by priority; where that leaves some without a law, look for other ways.
 
     Robots that rest densely are led over a lattice at once, if all can be. Else they are timed
@@ -43,23 +45,26 @@ def served_fleet(
         reroute: What may be spent on other paths, timed like all of them [s of the reference
             machine].
         work: What may be spent on paths that are laid in space and time at once.
+        tell: Told what is being done.
     """
     kept, led = paths.laid.kept, None
     if kept is not None and is_dense(fleet, alone := AlonePaths.of_kept(kept)):
         led = led_at_once(fleet, alone)
-    return led or served_along(fleet, paths, reroute, work)
+    return led or served_along(fleet, paths, reroute, work, tell)
 
 
 def served_along(
-    fleet: Fleet, paths: CrossingPaths, reroute: float, work: LayingWork
-) -> TimedFleet:
-    """As ``served_fleet``, where robots aren't led over a lattice at once."""
+    fleet: Fleet, paths: CrossingPaths, reroute: float, work: LayingWork,
+    tell: FleetProgress = untold,
+) -> TimedFleet:  # fmt: skip
+    """As ``served_fleet``, where robots aren't led over a lattice at once; tells what it does."""
     ways = FleetWays.of(fleet, paths)
     timed = TimedFleet.by_priority(ways)
     if not timed.blocked:
         timed = straight_fleet(timed, paths.laid.kept, fleet.separation_m)
     if not timed.blocked and not may_be_led_sooner(ways.rides, timed.arrivals()):
         return timed
+    tell("searching for an order", 0.0)
     led = led_fleet(
         ways.members, dict(zip(ways.courses.names, ways.planar, strict=True)), fleet.separation_m
     )
@@ -68,8 +73,11 @@ def served_along(
     if not timed.blocked:
         return timed
     if paths.laid.kept is not None:
-        timed = rerouted_fleet(timed, paths.laid.kept, fleet.separation_m, reroute)
+        timed = rerouted_fleet(
+            timed, paths.laid.kept, fleet.separation_m, reroute,
+            progress=lambda share: tell("looking for other paths", share),
+        )  # fmt: skip
     pairs = timed.timing.blocked.items()
     if not all(cannot_both_be_served(fleet, timed, *pair) for pair in pairs):
-        timed = relaid_fleet(fleet, timed, work) or timed
+        timed = relaid_fleet(fleet, timed, work, tell) or timed
     return timed.past_standing_ones() if timed.blocked else timed

@@ -14,8 +14,9 @@ from viaspline.fleet.execution.fleet_orders import FleetOrders, orders_of
 from viaspline.fleet.execution.fleet_run import FleetEvent, FleetRun, swapped_event
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.plan_fleet import PERIODS, FleetProgress, plan_fleet
+from viaspline.fleet.plan_fleet import PERIODS, plan_fleet
 from viaspline.fleet.still_world import check_still
+from viaspline.fleet.told_progress import FleetProgress
 from viaspline.formats.asked_for import AskedFleet, asked_fleet
 from viaspline.handed_in import check_kind, seed_from, time_from
 from viaspline.kernels.arrays import Ints

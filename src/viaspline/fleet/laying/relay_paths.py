@@ -6,7 +6,7 @@ Tested through ``fleet/laying/test_relay``.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -40,6 +40,7 @@ class RelaidPaths:
 def relay_paths(
     fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str],
     known: Mapping[str, Plan] = MappingProxyType({}), work: LayingWork | None = None,
+    laid: Callable[[], None] | None = None,
 ) -> RelaidPaths:  # fmt: skip
     """Lay and time robots one after the other, each among all that are timed by then.
 
@@ -53,6 +54,7 @@ def relay_paths(
         names: The others that are to be served, the most important first.
         known: Other plans of these, by name, as far as there are any.
         work: What may be spent, and what is known; None: ``RELAY_S`` for each of them.
+        laid: Called each time that a robot was laid, or can't be.
 
     Example:
         >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
@@ -73,6 +75,8 @@ def relay_paths(
         name, rounds = waiting.pop(0), rounds + 1
         with work.share(len(waiting) + 1) as part:
             found = _laid_or_not(fleet, members[name], plans, known.get(name), part)
+        if laid is not None:
+            laid()
         if isinstance(found, Plan):
             plans = {**plans, name: found}
         else:

@@ -9,6 +9,9 @@ Tested through ``fleet/test_unserved_fleets``.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 from viaspline.errors import ViasplineError
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.laying.lay_round_stretch import laying_cost
@@ -17,6 +20,7 @@ from viaspline.fleet.not_served import NotServed, Outcome
 from viaspline.fleet.rerouted_fleet import BOXES_A_S
 from viaspline.fleet.served_fleet import TRIAL_RELAY_S, TRIAL_REROUTE_S, served_fleet
 from viaspline.fleet.timed_fleet import TimedFleet
+from viaspline.fleet.told_progress import FleetProgress, untold
 from viaspline.fleet.unserved.blocked_stretch import blocked_stretches
 from viaspline.fleet.unserved.fleet_changes import FleetChange, fleet_changes
 from viaspline.fleet.unserved.pair_refusal import cannot_both_be_served
@@ -30,8 +34,9 @@ PROOF_S = 2.0
 
 
 def explain_unserved(
-    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, budget: float
-) -> tuple[NotServed, ...]:
+    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, budget: float,
+    tell: FleetProgress = untold,
+) -> tuple[NotServed, ...]:  # fmt: skip
     """Why robots couldn't be timed, and what would help.
 
     Args:
@@ -40,6 +45,7 @@ def explain_unserved(
         timed: What came of it.
         budget: What may be spent on proofs and on trying what would help [s of the reference
             machine].
+        tell: Told what of that is spent.
 
     Returns:
         One for each robot that has a path and no law, in their order.
@@ -47,7 +53,9 @@ def explain_unserved(
     found, left = [], budget
     tried: dict[str, frozenset[str]] = {}
     for robot, other in sorted(timed.timing.blocked.items()):
-        one, spent = _explained(fleet, paths, timed, robot, other, left, tried)
+        one, spent = _explained(
+            fleet, paths, timed, robot, other, left, tried, _with_spent(budget - left, budget, tell)
+        )
         found.append(one)
         left -= spent
     return tuple(found)
@@ -55,12 +63,14 @@ def explain_unserved(
 
 def _explained(
     fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, robot: int, other: int, budget: float,
-    tried: dict[str, frozenset[str]],
+    tried: dict[str, frozenset[str]], told: Callable[[float], None],
 ) -> tuple[NotServed, float]:  # fmt: skip
     """Why a robot couldn't be timed and what would help, and what it cost to find out [s].
 
-    What comes of changes that are tried is added to those that were.
+    What comes of changes that are tried is added to those that were. What it has cost is told as it
+    goes on.
     """
+    told(0.0)
     ways = timed.ways
     stretches = [] if robot == other else blocked_stretches(timed, robot, other)
     names = ways.courses.names
@@ -89,7 +99,10 @@ def _explained(
             break
         if change.words not in tried:
             work = LayingWork.of(min(TRIAL_RELAY_S, budget - spent))
-            tried[change.words] = _served_with(change, fleet, paths, work)
+            told(spent)
+            tried[change.words] = _served_with(
+                change, fleet, paths, work, partial(_again, told, spent)
+            )
             spent += work.budget.spent
         kept = {one.name for one in change.fleet.members}
         if (served & kept) | {names[robot]} <= tried[change.words]:
@@ -102,6 +115,21 @@ def _explained(
     return NotServed(names[robot], outcome, reason, remedy, (names[other],), where), spent
 
 
+def _with_spent(before: float, budget: float, tell: FleetProgress) -> Callable[[float], None]:
+    """Tells what is spent, with what one robot has taken of it so far [s]."""
+
+    def told(spent: float) -> None:
+        share = (before + spent) / budget if budget > 0.0 else 1.0
+        tell("looking for what would help", min(share, 1.0))
+
+    return told
+
+
+def _again(told: Callable[[float], None], spent: float, _stage: str, _share: float) -> None:
+    """Tells, at every step of a trial, what was spent when that began [s]."""
+    told(spent)
+
+
 def _trial_cost(timed: TimedFleet) -> float:
     """What it costs to plan the fleet once more [s of the reference machine]."""
     plans = timed.ways.planar
@@ -110,12 +138,12 @@ def _trial_cost(timed: TimedFleet) -> float:
 
 
 def _served_with(
-    change: FleetChange, fleet: Fleet, paths: CrossingPaths, work: LayingWork
+    change: FleetChange, fleet: Fleet, paths: CrossingPaths, work: LayingWork, tell: FleetProgress
 ) -> frozenset[str]:
     """The robots that are served with a change, if so much may be spent on laying them anew."""
     try:
         then = crossing_paths(change.fleet, before=_reusable(change, fleet, paths))
-        tried = served_fleet(change.fleet, then, TRIAL_REROUTE_S, work)
+        tried = served_fleet(change.fleet, then, TRIAL_REROUTE_S, work, tell)
     except ViasplineError:
         return frozenset()
     return frozenset(tried.ways.courses.names) - frozenset(tried.blocked)
