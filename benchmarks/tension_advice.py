@@ -3,8 +3,9 @@
     python benchmarks/tension_advice.py [--seed 0] [--missions 40]
 
 Random missions of four via points and vector worlds in turn, in which a tension stands or none. The
-suggested one must not be slower than none stated, -0.5, 0, 0.5 and what stands there, and no sharper
-than one of them that is as fast. All are planned by themselves, without what advice knows of them.
+suggested one must not be slower than none stated, -0.5, 0, 0.5 and what stands there, and no
+sharper than one of them that is as fast. All are planned by themselves, without what advice knows
+of them.
 """
 
 from __future__ import annotations
