@@ -59,7 +59,8 @@ class Plan(ShownValue, SavedValue, ComparedByValue):
         path: The exact curve with its via points.
         certificate: The proven clearance of the body against everything known.
         account: What the search did; its ledger is drawn up when it is read.
-        trajectory: The time law along the path.
+        trajectory: The time law along the path. Where anything of the mission moves, known or
+            unseen, it begins at ``route.depart_s``, else at 0.
         tracking_error: How far beside the path the driven robot may get [m]: the path keeps that
             much more than the clearance that was asked for.
         timed: How path and time law were chosen among what moves, and what is proven of that; None
@@ -173,6 +174,8 @@ def with_error(
     if mission.world.moving:
         return _among_what_moves(mission, world, requirements, found, spending)
     trajectory = fastest_law(found.path, mission, stations(found.path, mission.robot))
+    if mission.world.unseen_moving:
+        trajectory = trajectory.delayed(mission.route.depart_s)
     return Plan(mission, world, found.path, found.certificate, found.account, trajectory, error)
 
 

@@ -93,6 +93,19 @@ ASKED: dict[str, dict[str, Any]] = {
         "robot": {"prefer_clearance_m": 1.0},
         "route": {**ROUTE, "depart_s": 5},
     },
+    "unseen crosses": {
+        "world": {
+            "known": [TANK],
+            "unseen": [
+                {
+                    "name": "cart", "circle": {"center": [0, 0], "radius": 1},
+                    "motion": {"from": [80, 20], "velocity_mps": [0, 0.5]},
+                },
+            ],
+        },
+        "robot": {"sensor": {"range_m": 9}},
+        "route": {**ROUTE, "depart_s": 5},
+    },
     "flight": {
         "world": {"known": [TOWER], "ground": {"flat_m": 0}},
         "route": {

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from viaspline.mission.model import Mission
+from viaspline.planner import plan
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.simulator import simulate
 from viaspline.robot.state import RobotState
@@ -43,6 +44,16 @@ def test_a_robot_sets_off_when_it_may_depart_whatever_it_sees_until_then(
     moves = run.times[run.speeds > 0.0]
     assert DEPARTS_S < moves[0] <= DEPARTS_S + 1.5 * STEP_S
     assert (run.positions[run.times <= DEPARTS_S] == run.positions[0]).all()
+
+
+@pytest.mark.parametrize("drive", [None, {"differential": {"track_m": 0.4}}])
+def test_a_plan_begins_when_its_robot_may_depart_where_only_unseen_things_move(drive: Any) -> None:
+    asked = mission({"unseen": [CROSSING]}, sensor=RANGE, drive=drive)
+    late = plan(asked)
+    route = asked.route.model_copy(update={"depart_s": 0.0})
+    early = plan(asked.model_copy(update={"route": route}))
+    assert (early.trajectory.start_time, late.trajectory.start_time) == (0.0, DEPARTS_S)
+    assert late.trajectory.duration == pytest.approx(early.trajectory.duration, rel=1e-12)
 
 
 def test_a_robot_that_was_held_still_before_it_may_depart_stays_until_then() -> None:

@@ -92,7 +92,7 @@ def set_off(state: NavigationState, time: float, plan: Plan) -> NavigationState:
     if plan.timed is not None or mission.world.unseen_moving:
         departs = mission.route.depart_s
     if plan.timed is None:
-        law = law.delayed(max(time, departs))
+        law = law.delayed(max(time, departs) - law.start_time)
     return replace(
         state,
         progress=replace(progress, time=time, set_off=True),
