@@ -97,6 +97,8 @@ def simulate(
         raise GeometryError("the mission is one in space; give fly(plan(mission))")
     step, seed = time_from("step", step), seed_from("seed", seed)
     check_callable("pace", pace, "give by_work or by_clock")
+    if isinstance(pace, type):
+        raise GeometryError(f"pace is the class {pace.__name__}; give by_work or by_clock")
     check_callable("watch", watch, "give a function of a step")
     if progress is not None:
         check_callable("progress", progress, "give a function of a time and two lengths")

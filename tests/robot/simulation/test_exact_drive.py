@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
+from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -105,6 +107,23 @@ def test_a_robot_that_thinks_for_long_goes_on_by_its_old_path_meanwhile(mission_
     ]
     assert seen[1][1] >= seen[0][1]
     assert seen[1][1] - seen[1][0] >= 1.0 - 1e-9
+
+
+@pytest.mark.parametrize("drive", [None, {"differential": {"track_m": 0.5}}], ids=["none", "drive"])
+@pytest.mark.parametrize(
+    ("pace", "said"),
+    [
+        (dict, "pace is the class dict"),
+        (lambda nav: "long", "is 'long'; give a number"),
+        (lambda nav: -1.0, "is -1.0; give 0 s to"),
+        (lambda nav: 1e9, "is 1000000000.0; give 0 s to"),
+    ],
+)
+def test_a_pace_that_tells_no_time_is_refused(
+    mission_of: Make, drive: Any, pace: Any, said: str
+) -> None:
+    with pytest.raises(GeometryError, match=re.escape(said)):
+        simulate(mission_of([0, 0], [5, 0], drive=drive), pace=pace)
 
 
 def test_by_the_clock_a_search_takes_what_it_took(mission_of: Make) -> None:

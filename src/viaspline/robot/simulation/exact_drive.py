@@ -17,7 +17,7 @@ from viaspline.robot.simulation.contact import first_contact
 from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.driven_step import DrivenStep, StepWatcher, unwatched
 from viaspline.robot.simulation.machine_drive import Tell
-from viaspline.robot.simulation.pace import Pace, by_work, steps_taken
+from viaspline.robot.simulation.pace import Pace, by_work, seconds_from, steps_taken
 from viaspline.robot.simulation.sensors import senses_of
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
@@ -100,7 +100,7 @@ def drive_exactly(
             return ExactDrive(nav, book, tuple(trajectories), tick, time, None, reason)
         steady = senses.lidar is None and senses.moving is None and not nav.searches
         skipped = _quiet(nav, sensor, known, tick, step) if steady else 1
-        skipped = max(skipped, steps_taken(pace(nav), step))
+        skipped = max(skipped, steps_taken(seconds_from(pace, nav), step))
         touched = _contact(nav, world, step * np.arange(tick, tick + skipped + 1, dtype=float))
         tick += skipped
     return ExactDrive(nav, book, tuple(trajectories), tick, touched.time, touched, None)

@@ -31,7 +31,7 @@ from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
 from viaspline.robot.simulation.driven_step import DrivenStep, StepWatcher, unwatched
-from viaspline.robot.simulation.pace import Pace, by_work, steps_taken
+from viaspline.robot.simulation.pace import Pace, by_work, seconds_from, steps_taken
 from viaspline.robot.simulation.sensors import senses_of
 from viaspline.robot.state import RobotState
 from viaspline.world.world import World
@@ -119,7 +119,7 @@ def drive_machine(
         if time > limit:
             overdue = f"the drive was broken off after {time:.0f} s, its limit"
             break
-        for _ in range(steps_taken(pace(nav), step)):
+        for _ in range(steps_taken(seconds_from(pace, nav), step)):
             moved = move(
                 model, state, tick * step, step / substeps, controller.given.copy(),
                 faults.driven(substeps),

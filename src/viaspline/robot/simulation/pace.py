@@ -8,6 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from viaspline.errors import GeometryError
+from viaspline.handed_in import LONGEST_S, finite_from
 from viaspline.robot.navigator import Navigator
 
 Pace = Callable[[Navigator], float]
@@ -22,6 +24,20 @@ def by_work(nav: Navigator) -> float:
 def by_clock(nav: Navigator) -> float:
     """What its search took by the clock on the wall: a run of its own on every machine."""
     return math.fsum(nav.compute_times)
+
+
+def seconds_from(pace: Pace, nav: Navigator) -> float:
+    """How long a navigator's last step keeps its robot from looking again [s].
+
+    Raises:
+        GeometryError: What was handed in as ``pace`` tells no time.
+
+    """
+    told = "what pace tells of a navigator"
+    seconds = finite_from(told, pace(nav))
+    if not 0.0 <= seconds <= LONGEST_S:
+        raise GeometryError(f"{told} is {seconds}; give 0 s to {LONGEST_S:g} s")
+    return seconds
 
 
 def steps_taken(seconds: float, step: float) -> int:
