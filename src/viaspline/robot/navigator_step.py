@@ -8,6 +8,7 @@ Tested through ``robot/test_navigator``.
 from __future__ import annotations
 
 import time as clock
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from viaspline.planner import Plan
@@ -31,7 +32,7 @@ from viaspline.robot.state import Command, RobotState
 from viaspline.robot.watching.clock import runs_backwards, told_of_clock
 from viaspline.robot.watching.fresh_inputs import FreshInputs, Sensed, fresh_inputs
 from viaspline.robot.watching.held_still import held_still, let_on, stop_command
-from viaspline.robot.watching.judged_motion import judged_motion
+from viaspline.robot.watching.judged_motion import JudgedMotion, judged_motion
 from viaspline.robot.watching.measured_motion import remembered_for
 from viaspline.robot.watching.model_watch import WatchedMotion, watched_motion
 from viaspline.robot.watching.watch import Watch
@@ -183,15 +184,39 @@ def _on_next_part(now: _StepSoFar, schedule: Schedule) -> _StepSoFar:
 
 def _judged(now: _StepSoFar, motion: WatchedMotion) -> _StepSoFar:
     """The step with what the robot does about a model that doesn't fit."""
+    # where one was set it may see for the first time what is in its way
+    knowledge = _as_seen(now) if motion.was_set else now.knowledge
     judged = judged_motion(
-        now.task, now.progress, now.knowledge, now.schedule, now.watch, motion, now.inputs.measured
+        now.task, now.progress, knowledge, now.schedule, now.watch, motion, now.inputs.measured
     )
     log = now.log
     for decision in judged.decisions:
         log = log.with_decision(decision, 0.0)
+    if judged.moved_by > 0.0:
+        now = _moved_along(now, judged)
     return replace(
         now, task=judged.task, watch=judged.watch, schedule=judged.schedule, work=judged.work,
         log=log,
+    )  # fmt: skip
+
+
+def _as_seen(now: _StepSoFar) -> Knowledge:
+    """What is known with what stands in sight now; what can be told once only is left for later."""
+    sensed = now.inputs.sensed
+    if not isinstance(sensed, Scan | Sequence):
+        return now.knowledge
+    standing = sensed if isinstance(sensed, Scan) else told_apart(sensed)[0]
+    return perceive(now.knowledge, standing, now.time, foreseen)[0]
+
+
+def _moved_along(now: _StepSoFar, judged: JudgedMotion) -> _StepSoFar:
+    """The robot on a path that leads from where it was set, so much farther along it."""
+    before = now.before.progress
+    if before.controller is not None:
+        before = replace(before, controller=before.controller.moved(judged.moved_by))
+    return replace(
+        now, before=replace(now.before, progress=before), progress=judged.progress,
+        proven=judged.schedule,
     )  # fmt: skip
 
 

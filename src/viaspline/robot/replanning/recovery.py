@@ -17,10 +17,11 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.replanning import replan
 from viaspline.planning.replanning.sides_ahead import spans_on_wrong_side
+from viaspline.robot.navigation.reschedule import braking_at_once
 from viaspline.robot.navigation.schedule import ReducedClearance
 from viaspline.robot.perception.body_room import room_along
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
-from viaspline.robot.replanning.replan_context import ReplanContext
+from viaspline.robot.replanning.replan_context import MotionAhead, ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.world.world import World
 
@@ -83,6 +84,45 @@ def way_out(
     return timed(
         with_less_until(context, at, floor), "from_rest", replace(found, changed_from=stop), (at,)
     )
+
+
+def set_down(context: ReplanContext, at: Floats, floor: float) -> ReplanContext:
+    """A robot that stands beside its path, on one that leads straight to where it was set.
+
+    From there it leads straight to the via points ahead: it is not one to be driven.
+
+    Args:
+        context: The robot; its path is one in the plane, and ends.
+        at: Where it was set [m], shape (2,).
+        floor: What it keeps [m].
+    """
+    distance, schedule = context.progress.distance, context.schedule
+    stood = replace(context, motion=MotionAhead(0.0, distance, (distance,)))
+    here = np.asarray(schedule.path.at_distance(distance))
+    share = np.arange(4.0)[:, None] / 3.0
+    path = by_way_of(stood, (here + share * (at - here))[None])
+    by, controller = math.dist(here, at), context.progress.controller
+    progress = replace(
+        context.progress,
+        distance=distance + by,
+        cross_track=0.0,
+        along_track=0.0,
+        controller=None if controller is None else controller.moved(by),
+    )
+    schedule = replace(
+        schedule,
+        path=path,
+        turns=(*(turn for turn in schedule.turns if turn < distance), distance),
+        slow=(),
+        reduced=ReducedClearance(math.inf, floor),
+        pending=None,
+        held_at=math.inf,
+        committed_until=-math.inf,
+        proven=None,
+    )
+    law = braking_at_once(context.task, progress, schedule, 0.0)
+    schedule = replace(schedule, trajectory=law)
+    return ReplanContext.of(context.task, progress, context.knowledge, schedule)
 
 
 def room_to_stop(context: ReplanContext, spacing: float) -> float:

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.robot.navigation.decision import Decision
+from viaspline.robot.navigation.pending_search import FIRST_STAGE
 from viaspline.robot.replanning.deadline import SPENT_AT_REST, with_time_to_search
-from viaspline.robot.replanning.recovery import room_to_stop, way_on_from_close
+from viaspline.robot.replanning.recovery import room_to_stop, way_on_from_close, way_out
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.robot.replanning.transitions import keep_searching, stop_for_good, take_over
@@ -48,6 +50,14 @@ def way_on(context: ReplanContext) -> Decision | str:
 
 
 def _found(context: ReplanContext) -> ReplanResult:
+    """What a search comes to; one that has spent its time goes on in the next step."""
+    try:
+        return _way_on_or_out(context)
+    except SpentBudgetError as error:
+        return ReplanResult(None, error, begin_with=FIRST_STAGE)
+
+
+def _way_on_or_out(context: ReplanContext) -> ReplanResult:
     """What a search comes to: of a robot with less room than it is to keep, one out of there first.
 
     So it is where more is kept from now on for what it gets beside its path than was when that was
@@ -56,7 +66,15 @@ def _found(context: ReplanContext) -> ReplanResult:
     requirements = context.requirements
     spacing = SPACING_RATIO * requirements.required
     floor = room_to_stop(context, spacing) - SLACK_M
-    might_touch = floor < requirements.radius + requirements.tracking_error
-    if might_touch or floor >= requirements.required - 2.0 * SLACK_M:
+    if floor >= requirements.required - 2.0 * SLACK_M:
         return search(context)
-    return way_on_from_close(context, floor, spacing, (requirements,))
+    if floor < requirements.radius + requirements.tracking_error:  # it might touch something
+        found = search(context)
+    else:
+        found = way_on_from_close(context, floor, spacing, (requirements,))
+    is_over = found.candidate is not None or found.begin_with is not None
+    if is_over or floor < requirements.radius:
+        return found
+    # straight away from what is near, where it comes no nearer than it stands
+    out = way_out(context, requirements, floor)
+    return found if out is None else ReplanResult(out)

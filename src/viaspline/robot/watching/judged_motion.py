@@ -36,6 +36,7 @@ class JudgedMotion:
         schedule: What the robot means to do.
         decisions: What there is to note, in order.
         work: What a new path has cost [s of the reference machine].
+        moved_by: So much farther along its path it is, which leads to where it was set [m].
     """
 
     task: DriveTask
@@ -44,6 +45,7 @@ class JudgedMotion:
     schedule: Schedule
     decisions: tuple[Decision, ...]
     work: float = 0.0
+    moved_by: float = 0.0
 
 
 def judged_motion(
@@ -78,6 +80,15 @@ def judged_motion(
     renewed = renewed_allowance(task, progress, knowledge, schedule, deviation)
     task, decision = renewed.task, renewed.decision
     schedule = decision.schedule
+    if renewed.progress is not None:
+        by = renewed.progress.distance - progress.distance
+        watch = replace(
+            watch, place=watch.place + by, meant=watch.meant + by, off=0.0, excuse=None, trail=()
+        )
+        decisions = (told, decision)
+        return JudgedMotion(
+            task, renewed.progress, watch, schedule, decisions, decision.work, moved_by=by
+        )
     if deviation.returns is None and schedule.giving_up is None:
         watch = replace(watch, renewals=watch.renewals + 1)
         if task.model is not None or watch.renewals >= GENTLE_FROM:

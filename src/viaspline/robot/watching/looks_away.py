@@ -67,7 +67,7 @@ def ways_to_path(
         >>> path = Path([[[0, 0], [9, 0], [18, 0], [27, 0]]], vias=[])
         >>> up = RobotState((1.0, 0.0), math.pi / 2, 0.0)
         >>> ways_to_path(path, 1.0, up, math.pi / 2, 2.0, over=1.0).max(axis=0).round(1).tolist()
-        [7.6, 2.6]
+        [8.8, 2.6]
     """
     x, y = measured.position
     side = -math.copysign(1.0, angle)

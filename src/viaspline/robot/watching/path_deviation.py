@@ -13,8 +13,16 @@ from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.state import RobotState
 from viaspline.robot.watching.looks_away import looks_away_by, ways_to_path
 from viaspline.robot.watching.measured_motion import noise_of
-from viaspline.robot.watching.set_beside import SETTLED, is_way_back_clear, room_on, way_back
+from viaspline.robot.watching.set_beside import (
+    SETTLED,
+    dies_out_over,
+    floor_back,
+    is_way_back_clear,
+    room_on,
+    way_back,
+)
 from viaspline.robot.watching.true_place import TruePlace
+from viaspline.robot.watching.turned_first import AT_REST_MPS
 from viaspline.robot.watching.watch import Excuse, Watch
 from viaspline.trajectory.slow_zones import Slow
 
@@ -44,6 +52,9 @@ class Deviation:
             is between it and its path is not clear.
         slowly: From where to where along the path it has to be slower for that, and how slow.
         turned: By how much it looks another way than its path and can't turn on the spot [rad].
+        at: Where it is, if it was set there [m], shape (d,).
+        speed: How fast it is there, as measured [m/s].
+        was_told: Whether it was told before that it can't come back.
     """
 
     off: float
@@ -53,6 +64,9 @@ class Deviation:
     returns: bool | None = None
     slowly: Slow | None = None
     turned: float = 0.0
+    at: tuple[float, ...] = ()
+    speed: float = math.inf
+    was_told: bool = False
 
 
 def path_deviation(
@@ -87,6 +101,14 @@ def path_deviation(
             return _set_askew(task, watch, knowledge, schedule, measured, place, turned)
     if was_set and off > kept + BESIDE_M:
         return _set_beside(task, watch, knowledge, schedule, measured, place, off)
+    if watch.excuse is not None and watch.excuse.brakes:
+        return _not_back(task, watch, knowledge, off, measured)
+    if watch.excuse is not None and watch.excuse.path is not None and off > kept + BESIDE_M:
+        if not _is_still_clear(task, watch.excuse, knowledge, schedule, measured, place):
+            return _not_back(task, watch, knowledge, off, measured)
+        if watch.excuse.path is not schedule.path:  # it comes back to another one by now
+            excuse = watch.excuse._replace(off=off, place=here, path=schedule.path)
+            watch = replace(watch, excuse=excuse)
     excused = 0.0 if watch.excuse is None else MARGIN * watch.excuse.left_at(here)
     if watch.excuse is not None and excused < DIED_OUT_M:
         watch = replace(watch, excuse=None)
@@ -110,24 +132,95 @@ def _set_beside(
     kept, here = task.requirements.tracking_error, schedule.driven + place.distance
     world, at = knowledge.world, np.asarray(measured.position)
     required = task.requirements.outer_radius + task.requirements.clearance
-    over = _convergence(task, task.limits.max_speed)
-    watch = replace(watch, excuse=Excuse(off, here, over))
+    over, looks = _convergence(task, task.limits.max_speed), _looks(task, schedule, measured, place)
     body, path = task.requirements.outer_radius, schedule.path
-    room = room_on(world, way_back(path, place.distance, at, over))
+    room = room_on(world, way_back(path, place.distance, at, over, looks=looks))
     if is_way_back_clear(room, required, body):
+        floor = floor_back(room, required, body)
+        watch = replace(watch, excuse=Excuse(off, here, dies_out_over(off, over), floor, path))
         return watch, Deviation(off, kept, kept, float(room.min()) - body, returns=True)
     slow, least = _slowest(task), _convergence(task, 0.0)
     braking = max(measured.ground_speed**2 - slow**2, 0.0) / (2.0 * task.limits.brake)
     braking += measured.ground_speed * task.reaction
-    room = room_on(world, way_back(path, place.distance, at, least, beside=braking))
-    whole = braking + SETTLED * least
+    room = room_on(world, way_back(path, place.distance, at, least, braking, looks))
+    whole = braking + SETTLED * dies_out_over(off, least)
     if not is_way_back_clear(room, required, body, braking / whole):
-        return watch, Deviation(off, kept, kept, float(room[0]) - body, returns=False)
-    end = place.distance + whole
-    watch = replace(watch, excuse=Excuse(off, here + braking, least))
+        watch = replace(watch, excuse=Excuse(off, here, over))
+        return _not_back(task, watch, knowledge, off, measured)
+    end, floor = place.distance + whole, floor_back(room, required, body, braking / whole)
+    excuse = Excuse(off, here + braking, dies_out_over(off, least), floor, path)
+    watch = replace(watch, excuse=excuse)
     slowly = Slow(place.distance + braking, end, slow)
     clearance = float(room.min()) - body
     return watch, Deviation(off, kept, kept, clearance, returns=True, slowly=slowly)
+
+
+def _not_back(
+    task: DriveTask, watch: Watch, knowledge: Knowledge, off: float, measured: RobotState
+) -> tuple[Watch, Deviation]:
+    """How one stands that can't come back to its path, or has to stand first.
+
+    Args:
+        task: What is asked of the drive.
+        watch: With since when it is beside its path.
+        knowledge: All that is known.
+        off: How far it is beside it [m].
+        measured: Where it is.
+    """
+    assert watch.excuse is not None
+    kept, at = task.requirements.tracking_error, tuple(measured.position)
+    room = float(room_on(knowledge.world, np.array([at]))[0]) - task.requirements.outer_radius
+    found = Deviation(
+        off, kept, kept, room, returns=False, at=at, speed=measured.ground_speed,
+        was_told=watch.excuse.brakes,
+    )  # fmt: skip
+    return replace(watch, excuse=watch.excuse._replace(brakes=True)), found
+
+
+def _is_still_clear(
+    task: DriveTask,
+    excuse: Excuse,
+    knowledge: Knowledge,
+    schedule: Schedule,
+    measured: RobotState,
+    place: TruePlace,
+) -> bool:
+    """Whether a robot on its way back to its path may go on, by all that it knows by now.
+
+    It looks at that again in every step: what it comes by may not have been in sight before, and
+    its path may have been laid anew.
+
+    Args:
+        task: What is asked of the drive.
+        excuse: Since when it is on its way back, and what it keeps there.
+        knowledge: All that is known.
+        schedule: What it means to do.
+        measured: Where it is.
+        place: That on its path.
+    """
+    path, at, body = schedule.path, np.asarray(measured.position), task.requirements.outer_radius
+    looks = _looks(task, schedule, measured, place)
+    for speed in (measured.ground_speed, 0.0):
+        over = _convergence(task, speed)
+        room = room_on(knowledge.world, way_back(path, place.distance, at, over, looks=looks))
+        if is_way_back_clear(room, min(excuse.floor, body + task.requirements.clearance), body):
+            return True
+    return False
+
+
+def _looks(task: DriveTask, schedule: Schedule, measured: RobotState, place: TruePlace) -> float:
+    """By how much a robot looks to the left of where its path leads, and drives so [rad].
+
+    One that drives across looks as it likes; one that stands turns first, if it can.
+    """
+    robot, path = task.mission.robot, schedule.path
+    turns_first = robot.turn_radius is None and measured.ground_speed < AT_REST_MPS
+    if path.dimension > 2 or robot.held_heading is not None or turns_first:
+        return 0.0
+    if task.model is not None and task.model.actuators.max_across > 0.0:
+        return 0.0
+    leads = float(path.heading(path.parameter(place.distance)))
+    return math.remainder(measured.heading - leads, math.tau)
 
 
 def _set_askew(

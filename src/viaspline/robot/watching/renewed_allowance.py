@@ -20,11 +20,13 @@ from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
-from viaspline.robot.navigation.reschedule import rescheduled
+from viaspline.robot.navigation.reschedule import braking_at_once, rescheduled
 from viaspline.robot.navigation.schedule import ReducedClearance, Schedule
+from viaspline.robot.navigation.track_path import STANDSTILL_MPS
 from viaspline.robot.perception.body_room import room_along
 from viaspline.robot.replanning.deadline import with_time_to_search
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
+from viaspline.robot.replanning.recovery import set_down, way_on_from_close, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.transitions import stop_for_good, take_over
 from viaspline.robot.replanning.way_round import SLACK_M, SPACING_RATIO, way_on
@@ -44,10 +46,12 @@ class RenewedAllowance:
     Attributes:
         task: With what is kept for that from now on.
         decision: What the robot means to do, and what there is to note of it.
+        progress: Where it is by that, if it goes on from where it was set; None: where it was.
     """
 
     task: DriveTask
     decision: Decision
+    progress: Progress | None = None
 
 
 def renewed_allowance(
@@ -67,7 +71,14 @@ def renewed_allowance(
         deviation: How far it is beside its path.
     """
     if deviation.returns is not None:
-        return RenewedAllowance(task, _set_back(task, progress, knowledge, schedule, deviation))
+        context = ReplanContext.of(task, progress, knowledge, schedule)
+        if not deviation.returns and _may_set_off_anywhere(context, deviation):
+            if deviation.speed > STANDSTILL_MPS:
+                return RenewedAllowance(task, _braking_first(context, deviation))
+            anew = from_where_it_was_set(context, deviation)
+            if anew is not None:
+                return anew
+        return RenewedAllowance(task, _set_back(context, deviation))
     requirements = replace(task.requirements, tracking_error=deviation.needed)
     renewed = replace(task, requirements=requirements)
     context = ReplanContext.of(renewed, progress, knowledge, schedule)
@@ -83,15 +94,67 @@ def renewed_allowance(
     return RenewedAllowance(renewed, _laid_anew(blocked, deviation))
 
 
-def _set_back(
-    task: DriveTask,
-    progress: Progress,
-    knowledge: Knowledge,
-    schedule: Schedule,
-    deviation: Deviation,
-) -> Decision:
+def from_where_it_was_set(context: ReplanContext, deviation: Deviation) -> RenewedAllowance | None:
+    """How one goes on that was set beside its path and can't come back: on a path from there.
+
+    Where a body was set it can be: it comes no nearer to anything than it is, and keeps all from
+    the first place on that has room.
+
+    Returns:
+        None if it can't turn there, or if there is no such path.
+    """
+    task = context.task
+    at, requirements = np.array(deviation.at[:2]), task.requirements
+    floor = min(float(context.knowledge.world.distance(at[None])[0]), requirements.required)
+    floor -= SLACK_M
+    if floor < requirements.radius:
+        return None
+    there = set_down(context, at, floor)
+    there = replace(there, obstruction=Obstruction(there.knowledge.world, (), there.stop))
+    spacing, candidate, work = SPACING_RATIO * requirements.required, None, 0.0
+    for limit in LAY_WORK_S:
+        searching = there.searching(limit)
+        try:
+            candidate = way_out(searching, searching.task.requirements, floor)
+            if candidate is None:
+                kept = (searching.task.requirements,)
+                candidate = way_on_from_close(searching, floor, spacing, kept).candidate
+        except SpentBudgetError:
+            candidate = None
+        work = searching.work
+        if candidate is not None:
+            break
+    if candidate is None:
+        return None
+    told = _told(context, deviation, "it goes on from there on a path of its own", "laid anew")
+    decision = take_over(there, candidate, {})
+    decision = replace(decision, events=(told, *decision.events), searched=True, work=work)
+    return RenewedAllowance(task, decision, there.progress)
+
+
+def _may_set_off_anywhere(context: ReplanContext, deviation: Deviation) -> bool:
+    """Whether a robot that was set beside its path can turn on the spot and go on from there."""
+    requirements, schedule = context.task.requirements, context.schedule
+    turns = requirements.turns_at_rest and requirements.footprint is None
+    is_plain = schedule.path.dimension == 2 and schedule.laps is None
+    return turns and is_plain and deviation.turned == 0.0
+
+
+def _braking_first(context: ReplanContext, deviation: Deviation) -> Decision:
+    """How one that can't come back to its path brakes, to go on from where it stands then."""
+    motion = replace(context.motion, speed=min(context.speed, deviation.speed))
+    law = braking_at_once(context.task, context.progress, context.schedule, motion.speed)
+    schedule = replace(context.schedule, trajectory=law, pending=None, held_at=context.stop)
+    if deviation.was_told:
+        return Decision(schedule)
+    then = "the way back is not clear: it stands first, and goes on from there"
+    return Decision(schedule, (_told(context, deviation, then, "brakes"),))
+
+
+def _set_back(context: ReplanContext, deviation: Deviation) -> Decision:
     """How one goes on that was set beside its path: back to it, or not at all."""
-    context = ReplanContext.of(task, progress, knowledge, schedule)
+    task, progress, knowledge = context.task, context.progress, context.knowledge
+    schedule = context.schedule
     if deviation.returns:
         told = _told(context, deviation, "it comes back to it, where it is clear", "returns")
         if deviation.slowly is not None:
@@ -106,7 +169,9 @@ def _set_back(
             f"it looks {math.degrees(abs(deviation.turned)):.0f}° away from its path, and has no "
             "room to turn to it: turn it, or say how it stands by route.start.heading_deg"
         )
-    stopped = stop_for_good(context, why)
+    # its law may be faster than what was set there is
+    motion = replace(context.motion, speed=min(context.speed, deviation.speed))
+    stopped = stop_for_good(replace(context, motion=motion), why)
     return replace(stopped, events=(told, *stopped.events))
 
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
+from viaspline.curve.path import Path
 from viaspline.robot.state import RobotState
 
 
@@ -34,11 +35,17 @@ class Excuse(NamedTuple):
         off: How far beside the path it was then [m].
         place: There, along all that is driven [m].
         over: The distance over which a deviation dies out [m].
+        floor: It comes no nearer to anything than this on its way back [m].
+        path: It comes back to this one.
+        brakes: Whether it can't come back, and brakes to go on from where it stands.
     """
 
     off: float
     place: float
     over: float
+    floor: float = 0.0
+    path: Path | None = None
+    brakes: bool = False
 
     def left_at(self, place: float) -> float:
         """How far beside its path it may still be at a later place along it [m].
