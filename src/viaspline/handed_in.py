@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 
+LONGEST_PERIOD_S = 10.0  # from step to step; loops of robots have 5 to 100 in a second
 LONGEST_S = 1e6  # between two steps of a drive, beyond which a time is a mistake
 
 
@@ -119,6 +120,23 @@ def time_from(name: str, value: object) -> float:
         raise GeometryError(
             f"{name} is {value!r:.40}; give a time above 0 s, up to {LONGEST_S:g} s"
         )
+    return seconds
+
+
+def period_from(name: str, value: object) -> float:
+    """The time between two steps of a control loop that was handed in [s].
+
+    Raises:
+        GeometryError: It is none, or as long as a rate or milliseconds are that were meant.
+
+    >>> period_from("period", 20)
+    Traceback (most recent call last):
+    viaspline.errors.GeometryError: period is 20 s; give seconds from step to step, below 10: 0.0...
+    """
+    seconds = time_from(name, value)
+    if seconds >= LONGEST_PERIOD_S:
+        remedy = f"give seconds from step to step, below {LONGEST_PERIOD_S:g}: 0.05 for 20 Hz"
+        raise GeometryError(f"{name} is {seconds:g} s; {remedy}")
     return seconds
 
 

@@ -175,6 +175,16 @@ def test_a_path_whose_corners_may_not_be_cut_says_what_autopilots_make_of_no_rad
     assert not any("PX4 NAV_ACC_RAD" in note for note in done.notes)
 
 
+@pytest.mark.parametrize("has_heights", [False, True])
+def test_who_flies_is_told_of_heights_that_nobody_has_said(
+    has_heights: bool, tmp_path: Path
+) -> None:
+    end = [9, 0, 20] if has_heights else [9, 0]
+    asked = {"route": {"start": [0, 0, 20][: len(end)], "goal": end}}
+    done = export(plan(Mission.model_validate(asked)), tmp_path / "x.plan", origin=ORIGIN)
+    assert any("has no heights" in note for note in done.notes) is not has_heights
+
+
 def test_an_acceptance_radius_that_is_not_clear_is_refused_with_the_place(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"at \(.*beside tank; give a smaller acceptance radius"):
         export(planned_yard(), tmp_path / "x.plan", origin=ORIGIN, acceptance=200.0)

@@ -187,3 +187,41 @@ def test_any_table_is_a_mission_or_a_mission_error(rows: list[tuple[int, float, 
         except MissionError:
             return
     assert mission.route.start.at
+
+
+@given(fast=st.sampled_from([0.5, 2.5, 12.0]), kind=st.sampled_from([0, 1]))
+def test_a_speed_that_is_set_before_setting_off_holds_for_the_whole_way(
+    fast: float, kind: int, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    file = with_speeds(tmp_path_factory.mktemp("tour"), (1, kind, fast))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", MissionWarning)
+        assert load(file).robot.max_speed_mps == fast
+
+
+@pytest.mark.parametrize(
+    "speeds", [[(2, 1, 0.7)], [(1, 1, 0.7), (2, 1, 3.0)], [(1, 2, 0.7)], [(1, 1, -1.0)]]
+)
+def test_a_speed_under_way_or_of_a_climb_or_none_is_not_the_missions(
+    speeds: list[tuple[int, int, float]], tmp_path: Path
+) -> None:
+    with pytest.warns(MissionWarning, match="change of speed"):
+        mission = load(with_speeds(tmp_path, *speeds))
+    assert (
+        mission.robot.max_speed_mps
+        == Mission.model_validate({"route": {"start": [0, 0], "goal": [1, 0]}}).robot.max_speed_mps
+    )
+
+
+def with_speeds(folder: Path, *speeds: tuple[int, int, float]) -> Path:
+    """Three way points; changes of speed go in by row, kind and speed [m/s]."""
+    rows = [(16, 0, 0, *HOME.split()[2:4])] + [(16, 0, 0, f"47.00{i}", "8.0") for i in (1, 2)]
+    for where, kind, fast in sorted(speeds, reverse=True):
+        rows.insert(where, (178, kind, fast, "0", "0"))
+    lines = ["QGC WPL 110"]
+    for number, (command, p1, p2, latitude, longitude) in enumerate(rows):
+        fields = (number, 0, 3, command, p1, p2, 0, 0, latitude, longitude, 0, 1)
+        lines.append("\t".join(map(str, fields)))
+    file = folder / "tour.txt"
+    file.write_text("\n".join(lines))
+    return file

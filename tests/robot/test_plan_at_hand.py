@@ -61,3 +61,15 @@ def test_what_stands_in_the_way_unseen_may_be_new() -> None:
     run = vs.simulate(richer, plan=made)
     assert run.reached
     assert run.replans
+
+
+def test_a_plan_in_the_place_of_a_mission_is_told_how_it_is_driven() -> None:
+    made: Any = vs.plan(mission(ROUTE))
+    with pytest.raises(vs.GeometryError, match=r"give Navigator\(plan\.mission, plan\)"):
+        vs.Navigator(made)
+
+
+@pytest.mark.parametrize("rate_or_milliseconds", [10, 20, 50])
+def test_a_rate_or_milliseconds_are_no_period(rate_or_milliseconds: float) -> None:
+    with pytest.raises(vs.GeometryError, match=r"0\.05 for 20 Hz"):
+        vs.Navigator(mission(ROUTE), period=rate_or_milliseconds)

@@ -95,6 +95,8 @@ def _of_driving(plan: Plan | SpatialPlan, table: PathTable) -> Iterator[str]:
     if len(table.points) > MOST_ITEMS:
         yield f"{len(table.points)} points: many autopilots hold about {MOST_ITEMS} items"
     yield "an autopilot rounds places to 1e-7 degree: up to 8 mm beside what is proven"
+    if not table.has_heights:
+        yield "the mission has no heights: those in the file are 0 above home, for ground and water"
     if isinstance(plan, SpatialPlan):
         yield "the vehicle climbs and descends with its own speeds"
 

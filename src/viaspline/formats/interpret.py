@@ -17,6 +17,7 @@ from viaspline.caller_warning import warn_caller
 from viaspline.errors import Fault, MissionError, with_article
 from viaspline.formats.fences import fence_areas
 from viaspline.formats.file_faults import fault_at, refusal
+from viaspline.formats.first_speed import speed_of
 from viaspline.formats.flights import ground_of, not_flown, route_in_space
 from viaspline.formats.items import FenceArea, Itinerary, LatLon, Place
 from viaspline.formats.known_heights import check_known_heights
@@ -101,6 +102,7 @@ def _mission(
     """
     fences = [area for area in areas if area.inclusion]
     obstacles = [area for area in areas if not area.inclusion]
+    speed = speed_of(itinerary)
     data = {
         "world": {
             "fences": [_ring(frame, area) for area in fences],
@@ -108,7 +110,7 @@ def _mission(
             **(more or {}),
             "origin_deg": frame.geographic,
         },
-        "robot": {} if itinerary.speed is None else {"max_speed_mps": itinerary.speed},
+        "robot": {} if speed is None else {"max_speed_mps": speed},
         "route": route,
     }
     try:

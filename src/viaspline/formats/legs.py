@@ -24,6 +24,7 @@ from viaspline.formats.commands import (
     UNLIMITED_LOITER,
     command_name,
 )
+from viaspline.formats.first_speed import first_speed
 from viaspline.formats.items import ABSOLUTE, GLOBAL, RELATIVE, TERRAIN, Item, Itinerary, Place
 
 OVER_TERRAIN: Final = "altitude above terrain, and no terrain is given: heights are left out"
@@ -96,7 +97,7 @@ def stops_of(itinerary: Itinerary) -> tuple[tuple[Stop, ...], tuple[tuple[str, s
     a position. Return to launch and unlimited loiter end the way.
     """
     log = _Log()
-    ground = _ground(itinerary, log)
+    ground, speed = _ground(itinerary, log), first_speed(itinerary)
     stops: list[Stop] = []
     home = itinerary.home
     if home is not None and home.is_plausible:
@@ -104,7 +105,7 @@ def stops_of(itinerary: Itinerary) -> tuple[tuple[Stop, ...], tuple[tuple[str, s
     waiting = 0.0
     looked_at: Item | None = None
     for i, item in enumerate(itinerary.items):
-        if item.command in FENCE_COMMANDS:
+        if item.command in FENCE_COMMANDS or item is speed:
             continue
         if item.command in DELAYS:
             waiting += _delay(item, log)

@@ -219,7 +219,8 @@ def _dimensions(partial: PartialMission) -> list[UnplacedFault]:
         UnplacedFault(
             (*path, "at"),
             f"has {len(point.at)} coordinates, but {spell(model)} has {usual}",
-            "give all points of the route 2 coordinates, or all of them 3",
+            "give all points of the route 2 coordinates, or all of them 3; "
+            "a comma ends a number: write 30.5 for 30,5",
         )
         for path, point in sound
         if len(point.at) != usual

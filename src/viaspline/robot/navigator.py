@@ -8,7 +8,14 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.handed_in import all_finite, check_kind, number_from, numbers_from, time_from
+from viaspline.handed_in import (
+    all_finite,
+    check_kind,
+    number_from,
+    numbers_from,
+    period_from,
+    time_from,
+)
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.robot_model import drive_model_of
 from viaspline.machine.turns_on_spot import heading_onward
@@ -38,6 +45,9 @@ from viaspline.world.world import World
 
 MAX_CLOCK_S = 1e10
 """A clock may count from 1970 or from when the machine was started, and tells microseconds [s]."""
+
+_MISSION_EXAMPLE = "give Mission.model_validate({...}) or load(file)"
+_PLAN_FIRST = "give Navigator(plan.mission, plan)"
 
 
 class Navigator:
@@ -98,7 +108,7 @@ class Navigator:
         mission: What to do.
         plan: Its plan, if there is one already.
         reaction: Longest time between two steps [s]; the period, if that is longer.
-        period: Usual time between two steps [s].
+        period: Usual time between two steps [s], below 10: one over the rate.
         warm: Load, and on a machine's first run compile, all that any step can need, before the
             plan: see ``warm``. Without it a step that is the first to need a kernel waits for it.
         progress: Hears the name of every kernel that has to be compiled for that.
@@ -136,8 +146,9 @@ class Navigator:
         warm: bool = True,
         progress: KernelCallback | None = None,
     ) -> None:
-        check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
-        reaction, period = time_from("reaction", reaction), time_from("period", period)
+        has_plan = isinstance(mission, Plan)
+        check_kind("mission", mission, Mission, _PLAN_FIRST if has_plan else _MISSION_EXAMPLE)
+        reaction, period = time_from("reaction", reaction), period_from("period", period)
         reaction = max(reaction, period)
         if plan is not None:
             check_plan_of(mission, plan)
