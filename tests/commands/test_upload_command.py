@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 import shapely
 from click.testing import CliRunner, Result
-from pymavlink_vehicle import PX4, PymavlinkVehicle, metres_per_degree
+from pymavlink_vehicle import COPTER, PX4, PymavlinkVehicle, metres_per_degree
 from vehicle_on_udp import VehicleOnUdp
 
 from free_ports import free_port
@@ -47,6 +47,16 @@ def test_via_points_fences_and_speed_are_on_board(mission: Path) -> None:
     assert vehicle.board[0][3].param1 == 7.0
     assert vehicle.board[0][0].x == 471000000
     assert sorted(item.command for item in vehicle.board[1]) == [5001] * 4 + [5002] * 3 + [5004]
+
+
+@pytest.mark.parametrize("more", [(), ("--vias",)])
+def test_no_copter_is_sent_along_the_ground(mission: Path, more: tuple[str, ...]) -> None:
+    port, vehicle = free_port(), PymavlinkVehicle(kind=COPTER)
+    with VehicleOnUdp(vehicle, port):
+        result = uploaded(mission, port, "--origin", "47.1,8.2", *more)
+    assert result.exit_code == 2, result.output
+    assert "the mission has no heights" in result.output
+    assert not any(vehicle.board.values())
 
 
 def test_what_is_on_board_comes_down_again_with_its_rally_points(tmp_path: Path) -> None:

@@ -54,7 +54,11 @@ def upload(
     from viaspline.links.mavlink.mav_words import FENCE, LISTS
     from viaspline.links.mavlink.mission_items import lists_of
     from viaspline.links.mavlink.rally_points import rally_points
-    from viaspline.links.mavlink.upload_mission import refuse_under_way, upload_mission
+    from viaspline.links.mavlink.upload_mission import (
+        refuse_copter_on_ground,
+        refuse_under_way,
+        upload_mission,
+    )
 
     way = _way(mission, mission_origin(mission, origin), vias=vias, quiet=quiet)
     if (note := origin_note(mission, origin)) and not quiet:
@@ -67,6 +71,7 @@ def upload(
         tell(f"waiting for an autopilot on {conversation.name} …")
         vehicle, heartbeat = conversation.find(system, wait)
         refuse_under_way(conversation.name, vehicle, heartbeat)
+        refuse_copter_on_ground(conversation.name, vehicle, way.itinerary)
         done = upload_mission(conversation, vehicle, lists, way.itinerary.home, tell)
     if not quiet:
         parts = ", ".join(f"{LISTS[kind]}: {count} items" for kind, count in done.counts.items())

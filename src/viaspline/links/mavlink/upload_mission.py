@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
 from viaspline.errors import LinkError
-from viaspline.formats.items import Home
+from viaspline.formats.items import Home, Itinerary
 from viaspline.links.mavlink.common_messages import Heartbeat, MissionItemInt
 from viaspline.links.mavlink.conversation import Conversation
 from viaspline.links.mavlink.exchange import Failure
@@ -54,6 +54,19 @@ def refuse_under_way(link: str, vehicle: Vehicle, heartbeat: Heartbeat) -> None:
         mode = vehicle.mode_name(heartbeat.custom_mode)
         problem = f"{vehicle} is armed and drives its mission ({mode}): nothing was sent"
         raise LinkError(link, problem, "stop it, or change its mode, first")
+
+
+def refuse_copter_on_ground(link: str, vehicle: Vehicle, itinerary: Itinerary) -> None:
+    """Refuse to send a copter along items whose heights nobody has said: those are 0 above home.
+
+    Raises:
+        LinkError: It would be sent so.
+    """
+    if vehicle.is_copter and itinerary.is_flat:
+        problem = (
+            f"the mission has no heights: {vehicle} would fly 0 m above home; nothing was sent"
+        )
+        raise LinkError(link, problem, "give its points heights, or send a .plan's own with --vias")
 
 
 def upload_mission(
