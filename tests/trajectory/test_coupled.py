@@ -362,3 +362,15 @@ def test_the_default_grid_loses_little_where_the_axes_limit(seed: int) -> None:
     law = retime(path, limits)
     assert law.duration == pytest.approx(best, rel=2e-3)
     assert law.distances.size < 3_000
+
+
+def test_a_span_that_is_nothing_but_rounding_costs_no_time() -> None:
+    corner = np.array([340.17, 48.64])
+    step = np.array([9.0, 2.0])
+    ahead = [np.linspace(corner - step, corner, 4), np.linspace(corner, corner + step, 4)]
+    loop = np.array([corner] * 4)
+    loop[1:3, 1] = np.nextafter(48.64, 0.0)
+    limits = Limits(max_speed=3.0, max_accel=2.0, max_yaw_rate=1.0, max_yaw_accel=1.0)
+    straight = retime(PiecewiseCubic(ahead), limits).duration
+    looped = retime(PiecewiseCubic([ahead[0], loop, ahead[1]]), limits).duration
+    assert looped == pytest.approx(straight)

@@ -47,7 +47,8 @@ def cut_cells(
     """Cut a curve into cells that are fine enough for the limits.
 
     Args:
-        spans: Bézier control polygons [m], shape (m, 4, d).
+        spans: Bézier control polygons [m], shape (m, 4, d). Those that are no longer than rounding
+            have no cells, unless all are so.
         longest: No cell is longer [m].
         least: A cell that is shorter is fine enough for every limit [m].
         accel: Bound of the acceleration along the curve [m/s²].
@@ -59,7 +60,7 @@ def cut_cells(
         Rows (n, 9): span; first and last parameter in it; what the quadratics of T [-], of K [1/m]
         and of the curvature [1/m], and the line of the curvature's change [1/m²], miss at most;
         what rounding does to the derivative [m]; 1 on a straight piece. And whether the cell is a
-        cusp, too short to be halved, (n,).
+        cusp, (n,): too short to be halved, or so slow in its parameter that all is rounding.
     """
     m, d = spans.shape[0], spans.shape[2]
     size = 2 * m + 64
@@ -69,7 +70,9 @@ def cut_cells(
     for i in range(m):
         noise = span_rounding(spans, i)
         straight = runs_straight(spans, i, noise)
-        depth = 1 if noise >= 0.0 else 0
+        velocity_polygon(spans, i, 0.0, 1.0, r)
+        is_point = shape_bounds(r, 1.0)[1] <= noise and (count > 0 or i < m - 1)
+        depth = 1 if noise >= 0.0 and not is_point else 0
         stack[0, 0], stack[0, 1] = 0.0, 1.0
         while depth > 0:
             depth -= 1
@@ -94,7 +97,7 @@ def cut_cells(
                     fine &= miss_y * accel <= 0.01 * yaw
                     fine &= miss_z * min(square, yaw / (c + k * k)) <= 0.02 * yaw
                 fine |= h <= least and h * k <= 0.3
-            cusp = not fine and width < 1e-9
+            cusp = not fine and (width < 1e-9 or high <= 2.0 * noise)
             if not (fine or cusp):
                 middle = 0.5 * (a + b)
                 stack[depth, 0], stack[depth, 1] = middle, b

@@ -4,7 +4,7 @@ A turn at which no speed is lost is a long one: where the way goes back, or is s
 close one takes less time. And a spline that goes on from a leg that is led round something swings
 out where it turns: the leg may go straight on between two turns as well.
 
-Tested through ``space/test_plan_spatial``.
+Tested in ``space/laying/test_otherwise_laid`` and through ``space/test_plan_spatial``.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ def changes(
     """What may be changed of a route, one thing after the other.
 
     Closer turns on all legs that are led round something, then on each of them; then, for each that
-    is left to the spline beside one of these, a straight way between wide turns, and close ones.
+    is left to the spline beside one of these, a straight way between wide turns, and close ones. A
+    leg of no length has none.
 
     Args:
         legs: Of the route.
@@ -48,7 +49,8 @@ def changes(
     for which in [led, *([leg] for leg in led if several)] if led and close < wide else []:
         yield partial(_closer, which=which, radius=close)
     beside = {leg for one in led for leg in (one - 1, one + 1)}
-    for leg in sorted(beside.intersection(range(len(legs.inner))).difference(led)):
+    long = np.flatnonzero((legs.vias[1:] != legs.vias[:-1]).any(axis=1)).tolist()
+    for leg in sorted(beside.intersection(long).difference(led)):
         for radius in (wide, close) if close < wide else (wide,):
             yield partial(_straight, leg=leg, radius=radius)
 
