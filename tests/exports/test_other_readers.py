@@ -236,3 +236,16 @@ def _decoded(data: bytes) -> list[tuple[tuple[int, int], list[float]]]:
     found = [(header(), list(take("7d", 8))) for _ in range(count)]
     assert at == len(body)
     return found
+
+
+def test_names_with_breaks_of_any_kind_come_back(tmp_path: Path) -> None:
+    name = "a\rb\r\nc\nd"
+    goal = {"at": [9, 0], "name": name}
+    made = plan(Mission.model_validate({"route": {"start": [0, 0], "goal": goal}}))
+    for ending in ("csv", "kml", "gpx"):
+        export(made, tmp_path / f"path.{ending}", origin=ORIGIN)
+    with (tmp_path / "path.csv").open(newline="") as table:
+        assert list(csv.DictReader(table))[-1]["via"] == name
+    for ending in ("kml", "gpx"):
+        texts = [each.text for each in ET.parse(tmp_path / f"path.{ending}").getroot().iter()]
+        assert name in texts

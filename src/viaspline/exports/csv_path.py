@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import csv
 import io
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from viaspline.exports.path_format import Carried
 from viaspline.exports.path_table import DIGITS_DEG, DIGITS_M, PathTable
+
+_BREAKS: Final = "\r\n"
 
 
 class CsvPath:
@@ -42,11 +44,15 @@ class CsvPath:
         columns["time_s"] = _texts(table.times, 6)
         columns["dwell_s"] = _texts(table.dwells, 6)
         columns["via"] = [name or "" for name in table.names]
-        text = io.StringIO()
-        rows = csv.writer(text, lineterminator="\n")
-        rows.writerow(columns)
-        rows.writerows(zip(*columns.values(), strict=True))
-        return text.getvalue().encode()
+        rows = zip(*columns.values(), strict=True)
+        return "".join(map(_line, (tuple(columns), *rows))).encode()
+
+
+def _line(cells: tuple[str, ...]) -> str:
+    """A line of the table; csv quotes those breaks alone that end its own lines."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator=_BREAKS).writerow(cells)
+    return text.getvalue().removesuffix(_BREAKS) + "\n"
 
 
 def _texts(values: object, digits: int) -> list[str]:

@@ -6,11 +6,11 @@ Tested through ``exports/test_other_readers``.
 from __future__ import annotations
 
 from typing import ClassVar
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element, SubElement
 
 from viaspline.exports.path_format import Carried
 from viaspline.exports.path_table import DIGITS_DEG, DIGITS_M, PathTable
-from viaspline.exports.xml_text import xml_words
+from viaspline.exports.xml_text import xml_file, xml_words
 
 NAMESPACE = "http://www.topografix.com/GPX/1/1"
 
@@ -43,8 +43,7 @@ class GpxPath:
             point = _point(route, "rtept", table, k)
             if name is not None:
                 SubElement(point, "name").text = xml_words(name)
-        indent(root)
-        return bytes(tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
+        return xml_file(root)
 
 
 def _point(parent: Element, tag: str, table: PathTable, k: int) -> Element:

@@ -6,11 +6,11 @@ Tested through ``exports/test_other_readers``.
 from __future__ import annotations
 
 from typing import ClassVar
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element, SubElement
 
 from viaspline.exports.path_format import Carried
 from viaspline.exports.path_table import DIGITS_DEG, DIGITS_M, PathTable
-from viaspline.exports.xml_text import xml_words
+from viaspline.exports.xml_text import xml_file, xml_words
 
 NAMESPACE = "http://www.opengis.net/kml/2.2"
 
@@ -53,8 +53,7 @@ class KmlPath:
             point = SubElement(mark, "Point")
             SubElement(point, "altitudeMode").text = _altitude_mode(table)
             SubElement(point, "coordinates").text = _position(table, k)
-        indent(root)
-        return bytes(tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
+        return xml_file(root)
 
 
 def _altitude_mode(table: PathTable) -> str:
