@@ -77,10 +77,12 @@ def summary(mission: Mission) -> list[tuple[str, str]]:
 
 
 def _stated_words(mission: Mission) -> str:
-    """That lines and turns compete with the spline, where no tension is stated."""
+    """That no tension is stated, and that lines and turns compete with the spline in the plane."""
     is_led = mission.route.corridor is not None and mission.route.corridor.line is not None
     if is_led or mission.spline.tension == "auto" or tension(mission) is not None:
         return ""
+    if mission.is_spatial:
+        return ", as none is stated"
     return ", as none is stated; lines and turns where they are sooner"
 
 
