@@ -1,4 +1,7 @@
-"""The speed that a file sets before its vehicle sets off, and no other after it."""
+"""The speed that a file sets before its vehicle sets off, and no other after it.
+
+Tested through ``formats/test_qgc_wpl``.
+"""
 
 from __future__ import annotations
 
