@@ -95,6 +95,36 @@ def swap(orders: PackedOrders, dispatch: PackedDispatch, crossing: int, leader: 
 
 
 @inner
+def swap_or_ask(
+    orders: PackedOrders, dispatch: PackedDispatch, crossing: int, leader: int, entry: int,
+    now: float,
+) -> bool:  # fmt: skip
+    """Let the other robot pass first, or ask the leader whether it still keeps out of the crossing.
+
+    One that is asked about another crossing, or that doesn't answer, isn't asked.
+
+    Args:
+        orders: PackedOrders.
+        dispatch: It is written to.
+        crossing: Of two robots.
+        leader: It was to pass first, and hasn't come in.
+        entry: Its own bar there.
+        now: [s].
+
+    Returns:
+        Whether the order was swapped.
+    """
+    if dispatch.promised[leader] <= orders.place[entry]:
+        swap(orders, dispatch, crossing, leader)
+        return True
+    if dispatch.recall[leader] < 0 and dispatch.recalled_at[leader] < np.inf:
+        dispatch.recall[leader] = crossing
+        dispatch.recall_place[leader] = orders.place[entry]
+        dispatch.recalled_at[leader] = now
+    return False
+
+
+@inner
 def settle_recall(orders: PackedOrders, dispatch: PackedDispatch, robot: int) -> bool:
     """After a report: the robot keeps before the crossing, or it is let pass as it was.
 
@@ -158,11 +188,6 @@ def consider_swaps(
             continue
         if makes_cycle(orders, dispatch, crossing, leader, entry, final):
             continue
-        if dispatch.promised[leader] <= orders.place[entry]:
-            swap(orders, dispatch, crossing, leader)
+        if swap_or_ask(orders, dispatch, crossing, leader, entry, now):
             swapped += 1
-        elif dispatch.recalled_at[leader] < np.inf:
-            dispatch.recall[leader] = crossing
-            dispatch.recall_place[leader] = orders.place[entry]
-            dispatch.recalled_at[leader] = now
     return swapped

@@ -9,7 +9,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Ints
 from viaspline.kernels.fleet.open_bars import open_bars_of
-from viaspline.kernels.fleet.order_swaps import NO_BAR, bars_of_pair, makes_cycle, swap
+from viaspline.kernels.fleet.order_swaps import NO_BAR, bars_of_pair, makes_cycle, swap_or_ask
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 from viaspline.kernels.jit import inner, kernel
@@ -37,14 +37,7 @@ def lets_pass(orders: PackedOrders, dispatch: PackedDispatch, bar: int, now: flo
         return False
     if makes_cycle(orders, dispatch, crossing, leader, entry, final):
         return False
-    if dispatch.promised[leader] <= orders.place[entry]:
-        swap(orders, dispatch, crossing, leader)
-        return True
-    if dispatch.recall[leader] < 0 and dispatch.recalled_at[leader] < np.inf:
-        dispatch.recall[leader] = crossing
-        dispatch.recall_place[leader] = orders.place[entry]
-        dispatch.recalled_at[leader] = now
-    return False
+    return swap_or_ask(orders, dispatch, crossing, leader, entry, now)
 
 
 @kernel
