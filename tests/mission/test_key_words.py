@@ -1,8 +1,10 @@
+from collections.abc import Mapping
 from typing import Annotated
 
 import pytest
 from pydantic import Field
 
+from viaspline.mission import others_words
 from viaspline.mission.fields import DEGREES, Length, Number
 from viaspline.mission.key_words import expectation, keys_at, suggestion
 from viaspline.mission.mission_parts import MissionParts
@@ -87,6 +89,16 @@ def test_a_mapping_has_the_keys_of_its_models(path: Path, some: set[str]) -> Non
         ("radius", ("robot",), "did you mean 'radius_m'?"),  # it was sent to a circle
         ("radius_m", ("world", "known", 0, "circle"), "did you mean 'radius'?"),
         ("Height", ("world", "known", 0), "did you mean 'height_m'?"),
+        ("waypoints", (), "did you mean 'route'?"),
+        ("Via-Points", ("route",), "did you mean 'via'?"),
+        (
+            "lat",
+            ("route", "start"),
+            "write at: [x, y], in metres east and north of origin_deg; "
+            ".plan and .waypoints files have latitudes",
+        ),
+        ("inflation_radius", ("robot",), "did you mean 'clearance_m'?"),  # it was a turning circle
+        ("max_vel_x", ("robot",), "did you mean 'max_speed_mps'?"),  # it was max_replan_s
         ("zzz", ("robot", "sensor"), "the keys here are range_m, lidar, velocity_noise_mps"),
     ],
 )
@@ -94,6 +106,27 @@ def test_a_key_in_the_wrong_place_is_sent_to_where_it_belongs(
     key: str, path: Path, remedy: str
 ) -> None:
     assert suggestion(key, path)[0] == remedy
+
+
+@pytest.mark.parametrize(
+    ("words", "path"),
+    [
+        (others_words.MISSION, ()),
+        (others_words.ROUTE, ("route",)),
+        (others_words.POINT, ("route", "goal")),
+        (others_words.ROBOT, ("robot",)),
+        (others_words.WORLD, ("world",)),
+        (others_words.OBSTACLE, ("world", "known", 0)),
+        (others_words.CIRCLE, ("world", "known", 0, "circle")),
+    ],
+)
+def test_others_words_lead_to_keys_that_are_there_and_are_none_themselves(
+    words: Mapping[str, str], path: Path
+) -> None:
+    known = set(keys_at(path))
+    assert {ours.partition(":")[0] for ours in words.values()} <= known
+    assert not set(words) & known
+    assert all(suggestion(theirs, path)[1] in known for theirs in words)
 
 
 class Beacon(

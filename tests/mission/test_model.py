@@ -39,6 +39,8 @@ def lidar(**changes: Any) -> dict[str, Any]:
     [
         ("robot.radius_m", True, "robot.radius_m", "found true"),
         ("robot.radius_m", "0.5", "robot.radius_m", "write 0.5 without quotes"),
+        ("route.start", ["30.5 6"], "route.start.at[0]", "write commas, [30.5, 6]"),
+        ("route.start", [30, 5, 6, 2], "route.start.at", "a decimal has a point: [30.5, 6.2]"),
         ("robot.radius_m", -1, "robot.radius_m", "-1 is negative"),
         ("robot.clearance_m", math.nan, "robot.clearance_m", "NaN"),
         ("robot.clearance_m", math.inf, "robot.clearance_m", "infinity"),

@@ -25,6 +25,8 @@ class KeyRules(TypedDict, total=False):
         excluding: Pairs of keys of which one at most may be given.
         needing: Keys that make sense beside another only.
         examples: Mappings as files have them, which show each of its keys.
+        foreign: What other programs call its keys, each with the key that is meant or, where that
+            alone wouldn't help, ``"key: what to write there"``.
     """
 
     expected: str
@@ -32,6 +34,7 @@ class KeyRules(TypedDict, total=False):
     excluding: tuple[tuple[str, str], ...]
     needing: tuple[tuple[str, str], ...]
     examples: tuple[Mapping[str, Any], ...]
+    foreign: Mapping[str, str]
 
 
 def describe_keys(model: type[BaseModel], rules: KeyRules, schema: dict[str, Any]) -> None:

@@ -113,6 +113,10 @@ def suggestion(key: str, path: Path, root: Model = MissionParts) -> tuple[str, s
     """
     known = keys_at(path, root)
     folded = key.strip().lower().replace("-", "_").replace(" ", "_")
+    foreign = _foreign(folded, path, root)
+    if foreign:
+        ours, says_more, _ = foreign.partition(":")
+        return f"write {foreign}" if says_more else f"did you mean '{foreign}'?", ours
     same = [
         name for name in known if name != folded and _without_unit(name) == _without_unit(folded)
     ]
@@ -127,6 +131,17 @@ def suggestion(key: str, path: Path, root: Model = MissionParts) -> tuple[str, s
     if near:
         return f"did you mean '{near[0]}'?", near[0]
     return "the keys here are " + ", ".join(known), None
+
+
+def _foreign(key: str, path: Path, root: Model) -> str:
+    """What a key of another program's is here, by ``KeyRules.foreign``; empty if nobody says.
+
+    >>> _foreign("waypoints", ("route",), MissionParts)
+    'via'
+    """
+    models = [option.model for option in options_at(path, root) if option.model is not None]
+    said = [model.key_rules.get("foreign", {}) for model in models]
+    return next((words[key] for words in said if key in words), "")
 
 
 def _without_unit(key: str) -> str:

@@ -8,6 +8,7 @@ Tested through ``mission/test_model``.
 
 from __future__ import annotations
 
+from viaspline.mission import others_words
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.ros_spec import RosSpec
 from viaspline.mission.route_spec import Route
@@ -18,6 +19,7 @@ from viaspline.mission.world_spec import WorldSpec
 
 class MissionParts(
     Value,
+    foreign=others_words.MISSION,
     examples=(
         {
             "world": {"known": [{"circle": {"center": [20, 1], "radius": 3}}]},

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
+from viaspline.mission import others_words
 from viaspline.mission.annotations import Expects
 from viaspline.mission.drives.drive import Drive
 from viaspline.mission.fields import (
@@ -69,6 +70,7 @@ class MovingThings(
 
 class RobotSpec(
     Value,
+    foreign=others_words.ROBOT,
     expected="a mapping such as {radius_m: 0.5, clearance_m: 0.5, max_speed_mps: 2}",
     excluding=(("radius_m", "footprint"), ("max_yaw_rate_degps", "max_yaw_rate_dps")),
     examples=(

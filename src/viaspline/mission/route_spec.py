@@ -16,6 +16,7 @@ from pydantic import (
     model_validator,
 )
 
+from viaspline.mission import others_words
 from viaspline.mission.annotations import Expects
 from viaspline.mission.corridor_spec import Corridor
 from viaspline.mission.fields import Coordinate, Duration, Heading, Name, Point, Point3, plain
@@ -62,6 +63,7 @@ def _is_place(value: Any) -> bool:
 
 class ViaPoint(
     Value,
+    foreign=others_words.POINT,
     expected="[x, y] or {at: [x, y], name: ..., dwell_s: ...}",
     examples=(
         {"at": [20, 8], "name": "pump", "dwell_s": 10},
@@ -150,6 +152,7 @@ Vias: TypeAlias = Annotated[
 
 class Route(
     Value,
+    foreign=others_words.ROUTE,
     examples=(
         {
             "start": [0, 0],

@@ -149,13 +149,19 @@ def _one_of(path: Path, kind: str, keys: Sequence[str], root: Model) -> Unplaced
 def _remedy(path: Path, found: Any, root: Model) -> str:
     expected = expectation(path, root)
     if isinstance(found, str) and "number" in expected:
-        try:
-            float(found)
-        except ValueError:
-            pass
-        else:
+        if _is_number(found):
             return f"it should be {expected}: write {found.strip()} without quotes"
+        if len(numbers := found.split()) > 1 and all(map(_is_number, numbers)):
+            return f"it should be {expected}: write commas, [{', '.join(numbers)}]"
     return f"it should be {expected}"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _unknown_key(path: Path, root: Model) -> UnplacedFault:
@@ -185,6 +191,19 @@ def _wrong_length(path: Path, found: Any, root: Model) -> UnplacedFault:
     remedy = f"it should be {expectation(path, root)}"
     is_flat = path[:2] in (("world", "known"), ("world", "unseen"))
     is_pair = any(option.kind == PAIR for option in options_at(path, root))
+    if remedy.startswith("it should be [x, y]") and _is_of_decimal_commas(found):
+        x, x_decimals, y, y_decimals = found
+        remedy += f"; a decimal has a point: [{x}.{x_decimals}, {y}.{y_decimals}]"
     if is_flat and is_pair and isinstance(found, list | tuple) and len(found) == 3:
         remedy += "; this shape is flat: say its heights as height_m: [low, high]"
     return UnplacedFault(path, f"found {describe(found)}", remedy)
+
+
+def _is_of_decimal_commas(found: Any) -> bool:
+    """Whether a list may be a pair of decimals with commas: ``[30,5, 60,2]``."""
+    return (
+        isinstance(found, list | tuple)
+        and len(found) == 4
+        and all(type(part) is int for part in found)
+        and min(found[1], found[3]) >= 0
+    )

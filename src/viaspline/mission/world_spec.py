@@ -13,6 +13,7 @@ from pydantic import BeforeValidator
 
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
+from viaspline.mission import others_words
 from viaspline.mission.annotations import Expects
 from viaspline.mission.fields import Coordinate, LatLonDeg, Name, Ring, Rings, Speed, plain
 from viaspline.mission.map_spec import MapSpec
@@ -107,6 +108,7 @@ SpeedZones: TypeAlias = Annotated[
 
 class WorldSpec(
     Value,
+    foreign=others_words.WORLD,
     examples=(
         {
             "bounds": [0, 0, 60, 40],

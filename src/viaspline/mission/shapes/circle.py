@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import ClassVar, Final, Self
 
+from viaspline.mission import others_words
 from viaspline.mission.fields import Length, Point2
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.mission.unplaced_faults import Path, UnplacedFault
@@ -18,6 +19,7 @@ CIRCLE_WORDS: Final = "{center: [x, y], radius: 5}"
 
 class Circle(
     Value,
+    foreign=others_words.CIRCLE,
     expected=CIRCLE_WORDS,
     examples=({"center": [20, 10], "radius": 3},),
 ):

@@ -16,6 +16,7 @@ from pydantic.json_schema import SkipJsonSchema
 from viaspline.errors import GeometryError
 from viaspline.maps.grid import Grid
 from viaspline.maps.reading import Reading
+from viaspline.mission import others_words
 from viaspline.mission.fields import Heights, Name, Ring, Rings
 from viaspline.mission.motion_spec import Motion
 from viaspline.mission.shapes.ball import Ball
@@ -62,6 +63,7 @@ def _as_grid(value: Any) -> Any:
 
 class Obstacle(
     Standalone,
+    foreign=others_words.OBSTACLE,
     expected="an obstacle such as {circle: {center: [x, y], radius: 5}}",
     exactly_one=SHAPES,
     needing=(("holes", "polygon"),),
