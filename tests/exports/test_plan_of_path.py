@@ -187,7 +187,7 @@ def test_what_a_flight_passes_over_is_no_fence_and_is_named(tmp_path: Path) -> N
     data = exported(asked, tmp_path / "x.plan")
     assert [one["circle"]["radius"] for one in data["geoFence"]["circles"]] == [2]
     lost = data["viaspline"]["path"]["not_carried"]
-    assert any(words.endswith("no top: hall, world.known[2]") for words in lost), lost
+    assert any(words.endswith("no top: hall, obstacle 3") for words in lost), lost
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MissionWarning)
         back = load(tmp_path / "x.plan")

@@ -270,6 +270,15 @@ def test_fences_count_from_one_in_names() -> None:
     assert [world.name(i) for i in index] == ["fence 1", "fence 1"]
 
 
+def test_obstacles_are_called_by_their_places_in_the_list_of_what_is_known() -> None:
+    cart = {"circle": {"center": [1, 1], "radius": 1},
+            "motion": {"from": [1, 1], "velocity_mps": [1, 0]}}  # fmt: skip
+    posts = [{"circle": {"center": [x, 9], "radius": 1}} for x in (20, 40)]
+    mission = Mission(world={"known": [cart, *posts]}, route={"start": [0, 0], "goal": [60, 0]})
+    world = World.known(mission).with_obstacles([disc(60, 9, 1)])
+    assert world.names == ("obstacle 2", "obstacle 3", "obstacle 4")
+
+
 def test_an_empty_world_is_infinitely_far_away() -> None:
     world = World()
     distance, index = world.nearest([(0, 0), (1e9, 1e9)])

@@ -57,7 +57,7 @@ def _flown_over(mission: Mission, points: ArrayLike) -> Iterator[tuple[int, str]
     for k, obstacle in enumerate(mission.world.known):
         ring = None if obstacle.motion is not None else obstacle.ring
         if ring is not None and _away(ring, lines) < free:
-            yield k, obstacle.name or f"world.known[{k}]"
+            yield k, obstacle.called(k)
 
 
 def _away(ring: RoundedRing, lines: shapely.LineString) -> float:

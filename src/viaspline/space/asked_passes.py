@@ -35,14 +35,13 @@ class AskedPass:
     name: str = "an obstacle"
 
     @classmethod
-    def of(cls, obstacle: Obstacle, key: str = "an obstacle") -> AskedPass | None:
+    def of(cls, obstacle: Obstacle, name: str = "an obstacle") -> AskedPass | None:
         """What is asked of an obstacle; None if nothing is.
 
         Args:
             obstacle: It.
-            key: Where the mission has it, which it is called by if it has no name.
+            name: What it is called.
         """
-        name = obstacle.name or key
         if obstacle.pass_on is not None:
             return cls(obstacle.solid(), (obstacle.pass_on,), name)
         if obstacle.never_pass_on is not None:
@@ -80,7 +79,7 @@ class AskedPass:
 def asked_passes(mission: Mission) -> tuple[AskedPass, ...]:
     """Of all obstacles that stand in the mission's known world."""
     found = (
-        AskedPass.of(obstacle, f"world.known[{k}]")
+        AskedPass.of(obstacle, obstacle.called(k))
         for k, obstacle in enumerate(mission.world.known)
         if obstacle.motion is None
     )

@@ -126,9 +126,7 @@ def spatial_world_of(mission: Mission, places: FlightPlaces) -> SpatialWorld:
     world, robot = mission.world, mission.robot
     solids = [obstacle.solid() for obstacle in world.standing]
     names = [
-        obstacle.name or f"world.known[{k}]"
-        for k, obstacle in enumerate(world.known)
-        if obstacle.motion is None
+        obstacle.called(k) for k, obstacle in enumerate(world.known) if obstacle.motion is None
     ]
     ground = world.ground
     half = robot.half_height_m

@@ -55,7 +55,7 @@ def path_data(plan: Plan) -> dict[str, Any]:
     return {
         **from_above(path, [via.kind for via in path.vias]),
         "curvature": 1.0 / plan.drivability.sharpest_radius,
-        "certificate": proof_data(proof, proof.obstacle),
+        "certificate": proof_data(proof),
         "drivability": plain(drivability_data(plan.drivability)),
         "corridor": [[rounded(point, 3) for point in ring] for ring in plan.world.corridor],
     }
@@ -81,15 +81,15 @@ def from_above(path: Path, kinds: Sequence[str]) -> dict[str, Any]:
     }
 
 
-def proof_data(proof: Certificate, nearest: str | None) -> dict[str, Any]:
-    """What is proven of a path, and what the page calls the nearest obstacle."""
+def proof_data(proof: Certificate) -> dict[str, Any]:
+    """What is proven of a path."""
     return {
         "clearance": finite(proof.clearance),
         "required": proof.required,
         "holds": proof.holds,
         "at": proof.tightest_at[:2],
         "distance": finite(proof.tightest_distance),
-        "nearest": nearest,
+        "nearest": proof.obstacle,
     }
 
 

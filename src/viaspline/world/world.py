@@ -134,8 +134,14 @@ class World(ShownValue, ComparedByValue):
         return world
 
     def listed_at(self, index: int) -> int:
-        """Where an obstacle stands in the mission's list of what is known, moving ones counted."""
-        return self._listed[index] if index < len(self._listed) else index
+        """Where an obstacle stands in the mission's list of what is known, moving ones counted.
+
+        What came in afterwards, such as what was seen, goes on from the last of these.
+        """
+        if index < len(self._listed):
+            return self._listed[index]
+        past = self._listed[-1] + 1 - len(self._listed) if self._listed else 0
+        return index + past
 
     def near(self, box: Bounds) -> World:
         """What of it reaches into a box [m], each obstacle by the name that it has in here.
@@ -210,12 +216,7 @@ class World(ShownValue, ComparedByValue):
             if BOUNDS - index > len(self.fences):
                 return "corridor"
             return "bounds" if index == BOUNDS else f"fence {BOUNDS - index}"
-        obstacle = self.obstacles[index]
-        if obstacle.name is not None:
-            return obstacle.name
-        if obstacle.grid is not None and obstacle.grid.source is not None:
-            return f"map '{obstacle.grid.source}'"
-        return f"obstacle {index + 1}"
+        return self.obstacles[index].called(self.listed_at(index))
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -170,7 +170,8 @@ TERRAIN: list[tuple[dict[str, Any], str, str]] = [
     ({"route__via": [{"at": [90, 90], "agl_m": 9}]}, "route.via[0].at", "counts from the ground"),
     ({"route__land": [90, 90]}, "route.land.at", "it lands on the ground, but nobody knows"),
     ({"route__via": [[90, 90, 40]]}, "route.via[0].at", "where the height of the ground isn't"),
-    ({"route__via": [[50, 50, 25]]}, "route.via[0].at", "5 m under the ground; set its z to 31.2"),
+    ({"route__via": [[50, 50, 25]]}, "route.via[0].at",
+     "5 m under the ground; set its z to 31.2, or give agl_m: 25 if that is meant above the"),
     # Under the ground's columns, though above the ground itself.
     ({"route__via": [[30, 40, 20]]}, "route.via[0].at", "inside the clearance of the ground"),
 ]  # fmt: skip

@@ -212,6 +212,18 @@ class Obstacle(
         """What is seen of it from above; None if it is a map, or has no shape."""
         return next((shape.ring() for _, shape in self.shapes()), None)
 
+    def called(self, index: int) -> str:
+        """What it is called in reports: by its name, its map's file or its number, from 1.
+
+        >>> Obstacle(circle={"center": (0, 0), "radius": 1}).called(2)
+        'obstacle 3'
+        """
+        if self.name is not None:
+            return self.name
+        if self.grid is not None and self.grid.source is not None:
+            return f"map '{self.grid.source}'"
+        return f"obstacle {index + 1}"
+
     @property
     def forced_side(self) -> Side | None:
         """The only side on which it may be passed in the plane, from either key."""

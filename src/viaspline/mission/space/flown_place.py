@@ -53,4 +53,7 @@ class FlownPlace:
             value = round(height - ground, 3)
             return f"set {key} to {number(value)}", (Change(spell(self.path), value),)
         change = Change(spell(self.path), (*self.place[:2], height))
-        return f"set its z to {number(height)}", (change,)
+        words = f"set its z to {number(height)}"
+        if 0 < self.place[2] < ground and "gate" not in self.path:
+            words += f", or give agl_m: {number(self.place[2])} if that is meant above the ground"
+        return words, (change,)

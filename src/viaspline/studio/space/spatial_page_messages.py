@@ -6,7 +6,6 @@ Tested through ``studio/space/test_spatial_server``.
 from __future__ import annotations
 
 import math
-import re
 from typing import Any, Final
 
 import numpy as np
@@ -28,7 +27,6 @@ from viaspline.studio.plan_messages import (
 from viaspline.studio.space.planned_spatial import PlannedSpatial
 
 MAX_SIDES_TOLD: Final = 4
-_NAMELESS: Final = re.compile(r"world\.known\[(\d+)\]")
 
 
 def spatial_answer(planned: PlannedSpatial, revision: int, scene: str | None) -> dict[str, Any]:
@@ -45,10 +43,7 @@ def spatial_answer(planned: PlannedSpatial, revision: int, scene: str | None) ->
     }  # fmt: skip
     plan = planned.plan
     if plan is None:
-        problems = [
-            {**problem_data(problem), "text": as_listed(problem.text)}
-            for problem in planned.problems
-        ]
+        problems = [problem_data(problem) for problem in planned.problems]
         space: dict[str, Any] = {"scene": scene}
         return {
             **head, "ok": False, "gave_up": planned.gave_up, "problems": problems, "space": space,
@@ -57,24 +52,14 @@ def spatial_answer(planned: PlannedSpatial, revision: int, scene: str | None) ->
     return {**head, "ok": True, **_from_above(plan), **law_data(plan.trajectory), "space": space}
 
 
-def as_listed(text: str) -> str:
-    """A text with obstacles that have no name called as the page's list calls them.
-
-    >>> as_listed("tightest at world.known[3]")
-    'tightest at obstacle 4'
-    """
-    return _NAMELESS.sub(lambda found: f"obstacle {int(found[1]) + 1}", text)
-
-
 def _from_above(plan: SpatialPlan) -> dict[str, Any]:
     """What a plan in space has in common with one in the plane."""
     path, proof = plan.path, plan.certificate
     kinds = ["upright" if v.kind == "user" and v.index is None else v.kind for v in path.vias]
-    nearest = None if proof.obstacle is None else as_listed(proof.obstacle)
     return {
         **from_above(path, kinds),
         "curvature": 1.0 / plan.sharpest_radius,
-        "certificate": proof_data(proof, nearest),
+        "certificate": proof_data(proof),
         "drivability": plain(drivability_data(plan.drivability)),
         "corridor": [],
     }
@@ -133,7 +118,7 @@ def spatial_ledger(planned: PlannedSpatial, revision: int) -> dict[str, Any]:
         members = [items[name] for name in entry.members if name in items]
         places = [unfolded.original(("world", "known", item))[2] for item in members]
         entries.append({
-            "members": [as_listed(name) for name in entry.members],
+            "members": list(entry.members),
             "items": sorted(set(places)),
             "leg": entry.leg,
             "forceable": bool(members),
