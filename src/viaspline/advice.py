@@ -75,11 +75,6 @@ class TensionAdvice(ComparedByValue):
         return not all(trial.is_same_as(self.chosen) for trial in self.trials)
 
     @property
-    def unstated(self) -> TensionTrial | None:
-        """What comes of none stated, so that lines and turns compete; None along a given line."""
-        return next((trial for trial in self.trials if trial.tension is None), None)
-
-    @property
     def common(self) -> tuple[TensionTrial, ...]:
         """The trials with one tension for all spans, in order."""
         alike = [trial for trial in self.trials if not math.isnan(trial.level)]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.report.heading_remarks import heading_remarks
 from viaspline.report.sight_remarks import sight_remarks
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ def plan_remarks(mission: Mission, plan: Plan | None = None) -> list[str]:
     >>> found == FOLLOWED_EXACTLY
     True
     """
-    found = [*_order(mission), *([FOLLOWED_EXACTLY] if keeps_nothing(mission.robot) else [])]
+    found = [*_order(mission), *heading_remarks(mission)]
+    found += [FOLLOWED_EXACTLY] if keeps_nothing(mission.robot) else []
     return found if plan is None else [*found, *_steering(mission, plan)]
 
 
@@ -91,4 +93,4 @@ def remarks(mission: Mission) -> list[str]:
         from viaspline.machine.machine_limits import limits_of
 
         found += limits_of(robot).conflicts(robot.turn_radius)
-    return [*found, *sight_remarks(mission)]
+    return [*found, *heading_remarks(mission), *sight_remarks(mission)]
