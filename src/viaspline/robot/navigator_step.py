@@ -11,6 +11,7 @@ import time as clock
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.planner import Plan
 from viaspline.robot.navigation.arrivals import note_arrivals
 from viaspline.robot.navigation.at_start import set_off
@@ -194,9 +195,11 @@ def _judged(now: _StepSoFar, motion: WatchedMotion) -> _StepSoFar:
         log = log.with_decision(decision, 0.0)
     if judged.moved_by > 0.0:
         now = _moved_along(now, judged)
+    if judged.task.model is not now.task.model:
+        now = replace(now, before=_steering_by(now.before, judged.task.model))
     return replace(
         now, task=judged.task, watch=judged.watch, schedule=judged.schedule, work=judged.work,
-        log=log,
+        log=log, progress=judged.progress,
     )  # fmt: skip
 
 
@@ -207,6 +210,15 @@ def _as_seen(now: _StepSoFar) -> Knowledge:
         return now.knowledge
     standing = sensed if isinstance(sensed, Scan) else told_apart(sensed)[0]
     return perceive(now.knowledge, standing, now.time, foreseen)[0]
+
+
+def _steering_by(before: NavigationState, model: DriveModel | None) -> NavigationState:
+    """The step before, with a controller that decides by another model: its command is due now."""
+    progress = before.progress
+    if model is None or progress.controller is None:
+        return before
+    controller = replace(progress.controller, model=model)
+    return replace(before, progress=replace(progress, controller=controller))
 
 
 def _moved_along(now: _StepSoFar, judged: JudgedMotion) -> _StepSoFar:
