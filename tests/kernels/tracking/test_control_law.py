@@ -20,7 +20,7 @@ from viaspline.kernels.tracking.control_law import (
     turn_law,
 )
 from viaspline.kernels.tracking.drive_model import DriveModel
-from viaspline.kernels.tracking.drive_motion import ACROSS, ALONG, HEADING, STATE, Y
+from viaspline.kernels.tracking.drive_motion import ACROSS, ALONG, HEADING, STATE, X, Y
 from viaspline.kernels.tracking.reference_path import ReferencePath
 from viaspline.kernels.tracking.reference_timing import SpeedProfile
 
@@ -45,8 +45,13 @@ def test_on_the_path_it_asks_for_the_curvature_of_the_path() -> None:
     assert turn_law(0.7, 0.0, 0.0, 0.3) == pytest.approx(0.7)
 
 
-def told(actuators: Actuators, *, heading: float, aside: float) -> np.ndarray:
-    """What is noted of a robot on its way along the x axis at 1 m/s, by pose."""
+def told(
+    actuators: Actuators, *, heading: float, aside: float, stands: float | None = None
+) -> np.ndarray:
+    """What is noted of a robot on its way along the x axis at 1 m/s, by pose.
+
+    Or of one that should stand at its origin, and is so far beyond it.
+    """
     model = DriveModel(
         actuators, INF, INF, 2.0, INF, 0.0, 0.0, 1.0, 0.6, 0.3, 1.0, 2.0, 0.05, 0.15, 0.0, 0.0
     )
@@ -58,6 +63,9 @@ def told(actuators: Actuators, *, heading: float, aside: float) -> np.ndarray:
     memory[LAST_TIME] = 0.0
     pose[Y], pose[HEADING] = aside, heading
     pose[ALONG], pose[ACROSS] = math.cos(heading), -math.sin(heading)
+    if stands is not None:
+        profile = SpeedProfile(np.zeros(2), np.zeros(2), np.array([0.0, 10.0]), np.zeros(2))
+        pose[X], pose[ALONG], pose[ACROSS] = stands, 0.0, 0.0
     return decide(model, reference, profile, memory, pose, 0.0, 0.0, 0.05, np.empty((0, 4)))
 
 
@@ -85,3 +93,13 @@ def test_a_body_that_looks_where_it_goes_is_never_sent_across() -> None:
     note = told(Actuators(track=0.5), heading=0.2, aside=0.3)
     assert note[NOTED_ACROSS] == 0.0
     assert note[NOTED_TURN] < 0.0
+
+
+@pytest.mark.parametrize(("short", "goes"), [(0.1, True), (0.35, False), (2.5, False)])
+def test_one_that_turns_where_it_should_stand_goes_there_if_it_is_near(
+    short: float, goes: bool
+) -> None:
+    """One that was pushed far beside its path backed into a post as it turned."""
+    note = told(Actuators(track=0.5), heading=0.3, aside=0.0, stands=short)
+    assert note[NOTED_TURN] < 0.0
+    assert (abs(note[NOTED_ALONG]) > 0.05) == goes

@@ -51,6 +51,10 @@ behind the rest by what sums of lengths are rounded by [m]."""
 MAX_SPOT_SPEED_MPS = 0.2
 """With which a robot that turns on the spot gets back to it, at most [m/s]."""
 
+MAX_SPOT_WAY_M = 0.2
+"""And from no farther: one that was set beside its path would drive where nothing was looked at
+[m]."""
+
 # what is noted at every step of the controller
 (
     TIME, PLACE, SPEED, LOW, HIGH, REST, NOTED_ALONG, NOTED_TURN, PROGRESS, CROSS_TRACK,
@@ -131,8 +135,8 @@ def _under_way(
 def _resting(model: DriveModel, reference: ReferencePath, note: Floats, pose: Floats) -> None:
     """The command for a robot that should stand: it turns to where it goes on.
 
-    While it turns it gets to where it should stand: what it stopped short of it, and what its
-    wheels slip as it turns, it would be beside its path by.
+    While it turns it gets to where it should stand, if that is near: what it stopped short of it,
+    and what its wheels slip as it turns, it would be beside its path by.
     """
     note[NOTED_ALONG], note[NOTED_ACROSS] = 0.0, 0.0
     if is_steered(model):
@@ -145,6 +149,8 @@ def _resting(model: DriveModel, reference: ReferencePath, note: Floats, pose: Fl
         note[NOTED_TURN] = clip(-model.heading_gain * error, -model.spot_rate, model.spot_rate)
         x, y, _, _ = on_reference(reference, note[PROGRESS])
         dx, dy = x - pose[X], y - pose[Y]
+        if math.hypot(dx, dy) > MAX_SPOT_WAY_M:
+            return
         c, s = math.cos(pose[HEADING]), math.sin(pose[HEADING])
         gain, most = model.heading_gain, min(MAX_SPOT_SPEED_MPS, model.max_speed)
         note[NOTED_ALONG] = clip(gain * (c * dx + s * dy), -most, most)
