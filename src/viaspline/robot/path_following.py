@@ -25,6 +25,7 @@ from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigation.track_path import ON_PATH_M
 from viaspline.robot.state import Command, RobotState
 from viaspline.robot.watching.turned_first import AT_REST_MPS, LEAVING_RAD
+from viaspline.trajectory.trajectory import Trajectory
 
 MIN_CONVERGENCE_M, CONVERGENCE_TIME_S = 1.0, 1.0
 """A robot beside its path comes back to it over at least this distance [m], and over what it drives
@@ -32,6 +33,10 @@ in this time [s]."""
 
 PERIODS_PER_RETURN = 4.0
 """And over what it drives in so many steps: arcs that are held for a step would overshoot."""
+
+CATCH_UP_PER_S = 1.0
+"""A robot without a drive that is behind its law is told so much more speed for each metre [1/s],
+but no more than the law has for where it is."""
 
 SIMPSON = np.array([1.0, 4.0, 2.0, 4.0, 1.0]) / 12.0
 """Weights of curvatures at even places, for the mean of them (Simpson's rule, applied twice)."""
@@ -89,6 +94,8 @@ def command_for(
         motion = _from_rest(task, motion, heading_onward(path, distance), measured)
         stopped = motion.velocity == (0.0, 0.0)
         acceleration = 0.0 if stopped else acceleration
+    if controller is None and progress.cross_track > ON_PATH_M:
+        speed = max(speed, motion.velocity[0])
     heading = heading_onward(path, distance) if stopped else place.heading
     return Command(
         speed=speed,
@@ -135,9 +142,13 @@ def _held(
     onward = max(float(then) - float(now), 0.0)
     places = np.linspace(distance, min(distance + onward, path.length), len(SIMPSON))
     curvature = float(SIMPSON @ _curvatures(path, places))
+    speed = onward / task.period
     if progress.cross_track > ON_PATH_M:
         curvature = _led_back(task, curvature, place, measured)
-    speed = onward / task.period
+        # who is to stand before something doesn't go on to where it should have stood
+        stands = progress.finished or schedule.giving_up is not None
+        if not stands and math.isinf(schedule.held_at):
+            speed = _caught_up(task, law, speed, place, measured)
     most = math.radians(task.mission.robot.max_yaw_rate_degps or math.inf)
     rate = min(max(speed * curvature, -most), most)
     return _Motion((speed, 0.0), rate, curvature, {})
@@ -185,6 +196,29 @@ def _led_back(task: DriveTask, curvature: float, place: _Place, state: RobotStat
     error = math.remainder(state.heading - heading, math.tau)
     seconds = max(CONVERGENCE_TIME_S, PERIODS_PER_RETURN * task.period)
     return turn_law(curvature, offset, error, max(MIN_CONVERGENCE_M, seconds * state.speed))
+
+
+def _caught_up(
+    task: DriveTask, law: Trajectory, speed: float, place: _Place, state: RobotState
+) -> float:
+    """The speed of a robot that drives less than it is told, and would stop short [m/s].
+
+    Args:
+        task: What is asked of it.
+        law: Its time law.
+        speed: By which it would be where its law has it at the next step, if it were there now.
+        place: Where its law has it.
+        state: Where it is.
+    """
+    behind = place.position[:2] - np.asarray(state.position)[:2]
+    # where it looks another way than its path leads, going on would not bring it there
+    ways = (place.heading, state.heading)
+    short = min(float(behind[0] * math.cos(way) + behind[1] * math.sin(way)) for way in ways)
+    if short <= 0.0:
+        return speed
+    most = float(law.speed_at(max(place.distance - short, 0.0)))
+    gain = min(CATCH_UP_PER_S, 1.0 / task.period)
+    return max(speed, min(speed + gain * short, most))
 
 
 def _ground_curvature(path: Path, u: float) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.path import Path
@@ -51,6 +51,30 @@ def test_a_crawling_robot_is_not_taken_for_being_where_its_time_law_is(
     driven = float(np.hypot(*np.diff(done.track[:, 1:3], axis=0).T).sum())
     assert abs(done.nav.distance - driven) < 0.8
     assert "via" not in done.kinds
+
+
+@given(share=st.floats(0.7, 1.02), speed=st.floats(0.2, 2.0), period=st.floats(0.02, 0.2))
+@example(share=0.99, speed=0.5, period=0.05)  # stood 0.26 m before its goal for good
+@settings(deadline=None, max_examples=12)
+def test_a_robot_that_drives_less_than_it_is_told_gets_to_its_goal(
+    cart_of: Any, loop: Any, share: float, speed: float, period: float
+) -> None:
+    mission = Mission.model_validate(
+        {
+            "robot": {"max_speed_mps": speed, "max_accel_mps2": 1.0},
+            "route": {
+                "start": {"at": [0, 0], "heading_deg": 0},
+                "via": [{"at": [7, 0], "dwell_s": 1}],
+                "goal": [14, 0],
+            },
+        }
+    )
+    nav = Navigator(mission, period=period)
+    slipping = cart_of(share=lambda _: share)
+    done = loop(nav, slipping, period=lambda _: period, limit=30.0 + 2.0 * 14.0 / speed)
+    assert done.nav.reached
+    assert abs(done.track[-1, 1] - 14.0) < 0.2
+    assert done.track[:, 3].max() <= speed * max(share, 1.0) + 0.05
 
 
 def test_lag_is_told_again_when_it_has_doubled(slalom_of: Any, cart_of: Any, loop: Any) -> None:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from viaspline.machine.drive_noise import MAX_DEVIATIONS
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.navigation.drive_task import DriveTask
+from viaspline.robot.navigation.track_path import STANDSTILL_MPS
 from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
 from viaspline.robot.watching.watch import TrailMark, Watch
@@ -46,8 +47,11 @@ LAG_S = 1.0
 """A robot that is so far behind its first time law is told of; then at every doubling [s]."""
 
 WAIT_M, WAIT_S = 0.25, 0.15
-"""So far behind, at rest and for its speed, a robot without a drive has its time law wait, as that
-of one with a drive does [m], [s]."""
+"""So far behind, and for its speed, a robot without a drive has its time law wait, as that of one
+with a drive does [m], [s];"""
+
+WAIT_AT_REST_M, WAIT_SLOWLY_S = 0.05, 0.4
+"""and less far where it is slow: else it would stop short of its goal [m], [s]."""
 
 
 def noise_of(robot: RobotSpec) -> tuple[float, float]:
@@ -185,4 +189,7 @@ def waits_for(watch: Watch, reached: float, seconds: float) -> float:
         seconds: Since then [s].
     """
     behind = reached - watch.place
-    return max(seconds, 0.0) if behind > WAIT_M + WAIT_S * watch.speed else 0.0
+    if watch.speed <= STANDSTILL_MPS:  # it stands as it was told: it comes no nearer
+        return 0.0
+    least = min(WAIT_M, WAIT_AT_REST_M + WAIT_SLOWLY_S * watch.speed) + WAIT_S * watch.speed
+    return max(seconds, 0.0) if behind > least else 0.0

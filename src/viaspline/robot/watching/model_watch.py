@@ -20,6 +20,7 @@ from viaspline.robot.watching.measured_motion import (
 from viaspline.robot.watching.true_place import (
     TruePlace,
     is_held_at_turn,
+    is_just_past_turn,
     is_there,
     true_place,
 )
@@ -101,7 +102,8 @@ def watched_motion(
         watch = replace(watch, trail=())
     watch, slips = slipping(task, watch, measured.position)
     waited = turns
-    if turns == 0.0 and task.model is None and last is not None and schedule.giving_up is None:
+    may_wait = task.model is None and last is not None and schedule.giving_up is None
+    if turns == 0.0 and may_wait and not is_just_past_turn(schedule, should):
         waited = waits_for(watch, schedule.driven + progress.distance, seconds)
         if waited > 0.0:
             schedule = replace(schedule, trajectory=schedule.trajectory.delayed(waited))

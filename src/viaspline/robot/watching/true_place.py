@@ -62,6 +62,16 @@ def is_held_at_turn(schedule: Schedule, place: TruePlace, should: float) -> bool
     return place.distance in schedule.turns and place.distance > should - PASSED_M
 
 
+def is_just_past_turn(schedule: Schedule, should: float) -> bool:
+    """Whether a robot should be so little beyond a turn that it may be taken to be before it.
+
+    Args:
+        schedule: What it means to do.
+        should: Distance along the path at which it should be [m].
+    """
+    return any(should - PASSED_M < turn <= should for turn in schedule.turns)
+
+
 def true_place(
     robot: RobotSpec,
     schedule: Schedule,
