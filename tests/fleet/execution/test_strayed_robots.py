@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from stepped_fleets import APART_M, CROSS, fleet
+from stepped_fleets import APART_M, ASIDE, CROSS, fleet, member
 from straying_fleets import BODIES_M, straying
 
 import viaspline as vs
 from viaspline import ProgressReport
+from viaspline.fleet.execution.changed_plans import add_robot
 
 
 def stepped(nav: vs.FleetNavigator, time: float, **places: float) -> Any:
@@ -109,6 +110,57 @@ def test_one_that_is_pushed_back_shuts_what_it_had_opened() -> None:
     _, nav = stepped(nav, 25.0, r0=25.0, r1=granted)
     commands, nav = stepped(nav, 26.0, r0=25.0, r1=granted)
     assert commands["r1"].granted == 40.0
+
+
+@pytest.mark.parametrize("change", ["joins", "other plan"])
+def test_a_fleet_is_changed_while_one_of_its_robots_is_where_it_was_not_let(change: str) -> None:
+    """All changes were refused: "r0 is to pass before r1, which may have gone beyond"."""
+    nav, granted = crossing()
+    _, nav = stepped(nav, 20.0, r0=18.5, r1=granted)
+    before, nav = stepped(nav, 21.0, r0=18.5, r1=granted + 0.3)
+    newcomer = member("new", ASIDE)
+    if change == "joins":
+        nav = nav.with_robot(newcomer)
+    else:
+        nav = nav.with_plan(add_robot(vs.plan_fleet(fleet(*CROSS)), newcomer))
+    commands, nav = stepped(nav, 22.0, r0=18.5, r1=granted + 0.3)
+    assert commands["new"].granted == 40.0
+    assert {name: commands[name].granted for name in before} == {"r0": 40.0, "r1": granted}
+    commands, nav = stepped(nav, 31.0, r0=30.0, r1=granted + 0.3)
+    commands, nav = stepped(nav, 32.0, r0=30.0, r1=granted + 0.3)
+    assert commands["r1"].granted == 40.0
+
+
+@pytest.mark.parametrize("goes_on", [True, False])
+def test_one_that_goes_on_saying_that_it_is_farther_than_it_can_drive_is_believed(
+    goes_on: bool,
+) -> None:
+    """Pushed on by 0.5 m at full speed, it wasn't believed for the rest of its way."""
+    nav, _ = crossing()
+    _, nav = stepped(nav, 5.0, r0=8.0, r1=0.0)
+    pushed = 0.5 if goes_on else 0.0
+    _, nav = stepped(nav, 5.5, r0=9.5, r1=0.0)
+    assert kinds(nav) == [("refused", "r0")]
+    _, nav = stepped(nav, 6.0, r0=10.0 + pushed, r1=0.0)
+    assert kinds(nav) == ([("refused", "r0")] if goes_on else [])
+    _, nav = stepped(nav, 6.5, r0=11.0 + pushed, r1=0.0)
+    assert kinds(nav) == ([("strayed", "r0")] if goes_on else [])
+    assert nav.progress["r0"] == 11.0 + pushed
+    _, nav = stepped(nav, 7.0, r0=12.0 + pushed, r1=0.0)
+    assert kinds(nav) == []
+    assert nav.progress["r0"] == 12.0 + pushed
+
+
+def test_who_is_pushed_off_its_start_before_it_departs_is_where_it_says() -> None:
+    late = {**CROSS[1], "depart_s": 60.0}
+    nav = vs.FleetNavigator(vs.plan_fleet(fleet(CROSS[0], late)), warm=False)
+    _, nav = nav.step([], 0.0)
+    for time in (1.0, 1.5):
+        _, nav = stepped(nav, time, r0=0.0, r1=0.4)
+        assert kinds(nav) == [("refused", "r1")]
+    _, nav = stepped(nav, 2.0, r0=0.0, r1=0.4)
+    assert kinds(nav) == [("strayed", "r1")]
+    assert nav.progress["r1"] == 0.4
 
 
 @given(seed=st.integers(0, 100_000), margin=st.sampled_from([0.0, 0.1]))

@@ -16,7 +16,12 @@ from viaspline.fleet.execution.fleet_messages import ProgressReport
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent
 from viaspline.fleet.execution.judged_reports import NOISE_M, KnownFleet, judged
-from viaspline.fleet.execution.strayed_robots import beyond, overran, pushed_back
+from viaspline.fleet.execution.strayed_robots import (
+    beyond,
+    overran,
+    pushed_back,
+    pushed_on,
+)
 from viaspline.kernels.arrays import Floats, Ints
 
 
@@ -43,6 +48,8 @@ def believed(
         event = judged(report, known, state.time, margin)
         if event is not None:
             events.append(event)
+            if event.kind == "refused":
+                _doubt(state, known, report, margin)
             continue
         robot = known.names[report.name]
         length = float(known.lengths[robot])
@@ -52,6 +59,10 @@ def believed(
         elif report.distance < come - noise:
             events.append(pushed_back(state, robot, report, margin))
             known.progress[robot] = state.packed.progress[robot]
+        elif report.distance > known.farthest(report, robot, margin) + noise:
+            events.append(pushed_on(state, report))
+        if report.time >= state.doubted[robot, 0]:
+            state.doubted[robot] = math.inf
         place = min(max(report.distance - margin, 0.0), length)
         if report.arrived:
             place = math.inf if fleet.rides.vanishes[robot] else length
@@ -66,6 +77,17 @@ def believed(
         robots.append(robot)
         rows.append((report.time, place, *_answer(report, state, fleet, robot, margin)))
     return np.array(robots, np.int64), np.array(rows, float).reshape(-1, 4), events
+
+
+def _doubt(
+    state: FleetProgressState, known: KnownFleet, report: ProgressReport, margin: float
+) -> None:
+    """Keep what a robot said that isn't believed, unless it goes on saying the same."""
+    robot = known.names.get(report.name)
+    if robot is None or not math.isfinite(report.time + report.distance):
+        return
+    if not known.goes_on(report, robot, margin):
+        state.doubted[robot] = report.time, report.distance
 
 
 def _answer(

@@ -5,6 +5,7 @@ Tested through ``fleet/execution/test_changed_fleets``.
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import replace
 
 import numpy as np
@@ -26,10 +27,11 @@ from viaspline.fleet.execution.opened_rings import without_rings
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
+from viaspline.kernels.fleet.packed_orders import PackedOrders
 
 KEPT = (
     "speeds", "heard", "arrived", "silent", "out", "places", "paths", "stations", "stands",
-    "stops_at", "sets_out", "driven",
+    "stops_at", "sets_out", "driven", "doubted",
 )  # fmt: skip
 """What a robot that keeps its path keeps of the state, beside what kernels see."""
 SAME_M = 1e-6
@@ -108,7 +110,7 @@ def _begun(
     _begin_anew(new, state, before, kept)
     packed.begin[kept < 0] = np.maximum(packed.begin[kept < 0], state.time)
     open_bars(orders.packed, packed)
-    check_let_in(orders, packed, kept)
+    check_let_in(orders, packed, kept, _strayed(state))
     swapped = swapped_events(after.names, drawn.leaders, orders.leaders, max(state.time, 0.0))
     return replace(new, time=state.time, events=(*state.events, *swapped), no_ways=state.no_ways)
 
@@ -198,20 +200,29 @@ def let_in_too_early(
         progress: How far each has come at least [m], (n,).
         fixed: Whether each never gets on any more: it may be where others were let in, (n,).
     """
-    bars, robots = _passed_too_early(orders, promised, progress, orders.packed.first[:-1])
-    drives = ~fixed[orders.packed.other[bars]]
+    packed = orders.packed
+    bars, robots = _passed_too_early(packed, orders.leaders, promised, progress, packed.first[:-1])
+    drives = ~fixed[packed.other[bars]]
     bars, robots = bars[drives], robots[drives]
-    return dict(zip(orders.packed.crossing[bars].tolist(), robots.tolist(), strict=True))
+    return dict(zip(packed.crossing[bars].tolist(), robots.tolist(), strict=True))
+
+
+def _strayed(state: FleetProgressState) -> set[tuple[int, int]]:
+    """Robots that may be beyond bars, and who is to pass before them there: they strayed."""
+    packed, orders = state.packed, state.orders.packed
+    bars, robots = _passed_too_early(
+        orders, packed.leaders, packed.promised, packed.progress, packed.head
+    )
+    return set(zip(robots.tolist(), orders.other[bars].tolist(), strict=True))
 
 
 def _passed_too_early(
-    orders: FleetOrders, promised: Floats, progress: Floats, head: Ints
+    packed: PackedOrders, leaders: Ints, promised: Floats, progress: Floats, head: Ints
 ) -> tuple[Ints, Ints]:
     """The bars beyond which robots have been let before those that are to pass first, and whom.
 
     Bars before ``head`` are open, (n,).
     """
-    packed = orders.packed
     ends = packed.first[1:]
     here = np.flatnonzero(np.isfinite(progress) & (head < ends))
     here = here[packed.place[head[here]] < promised[here]].tolist()
@@ -221,32 +232,39 @@ def _passed_too_early(
     ]
     bars: Ints = np.concatenate([np.empty(0, np.int64), *let])
     robot = np.repeat(here, [one.size for one in let]).astype(np.int64)
-    late = orders.leaders[packed.crossing[bars]] == packed.other[bars]
+    late = leaders[packed.crossing[bars]] == packed.other[bars]
     late &= promised[robot] > packed.place[bars] + SAME_M
     late &= progress[packed.other[bars]] < packed.passed[bars]
     return bars[late], robot[late]
 
 
-def check_let_in(orders: FleetOrders, dispatch: PackedDispatch, kept: Ints) -> None:
+def check_let_in(
+    orders: FleetOrders, dispatch: PackedDispatch, kept: Ints, strayed: Set[tuple[int, int]]
+) -> None:
     """Refuse a leader of a crossing into which the other robot has been let already.
 
-    A dead robot may be said to stand beyond where it was let, and in the way of one that was let in
-    there: among those that keep their paths nothing is changed by that.
+    A robot may be beyond where it was let, for it strayed or died there, and in the way of one that
+    is to pass before it: among those that keep their paths nothing is changed by that.
 
     Args:
         orders: Who passes first where.
         dispatch: How far robots have come and may go. Who has left the world is in nobody's way
             whatever it was let into.
         kept: For each robot its number before if its path is the same, else -1, (n,).
+        strayed: Of whom that was so before already, with whom, by their numbers before.
 
     Raises:
         GeometryError: With who was to pass before whom.
     """
     packed = orders.packed
-    bars, robots = _passed_too_early(orders, dispatch.promised, dispatch.progress, dispatch.head)
+    bars, robots = _passed_too_early(
+        packed, orders.leaders, dispatch.promised, dispatch.progress, dispatch.head
+    )
     others = packed.other[bars]
     is_old = dispatch.fixed[robots] | dispatch.fixed[others]
     is_old &= (kept[robots] >= 0) & (kept[others] >= 0)
+    pairs = zip(kept[robots].tolist(), kept[others].tolist(), strict=True)
+    is_old |= np.array([pair in strayed for pair in pairs], np.bool_)
     bars, robots = bars[~is_old], robots[~is_old]
     if bars.size:
         b = int(bars[0])

@@ -71,7 +71,8 @@ class FleetNavigator(FleetStanding):
     robot passes before one that is to pass before it by the plan; ``events`` tells of it.
 
     A robot that comes farther than it was let, or is pushed back, is believed, and ``events`` tell
-    how near others may come to it: see ``strayed_robots``.
+    how near others may come to it: see ``strayed_robots``. One that says that it is farther than it
+    can have driven is believed once it has gone on saying so for a second.
 
     A robot is let beyond a station when it has stood there for its time, by its reports.
 

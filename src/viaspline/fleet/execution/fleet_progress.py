@@ -42,6 +42,7 @@ class FleetProgressState:
         stands: Since when it stands there [s]; infinite: it doesn't yet, (n,).
         stops_at: Where each was asked to stop [m]; infinite: nowhere, (n,).
         sets_out: Before when none may have set out [s], (n,).
+        doubted: See ``KnownFleet``, (n, 2).
         events: What happened in the last step.
         no_ways: Robots for which no path was found where they stand, by name.
     """
@@ -61,6 +62,7 @@ class FleetProgressState:
     stands: Floats
     stops_at: Floats
     sets_out: Floats
+    doubted: Floats
     events: tuple[FleetEvent, ...] = ()
     no_ways: Mapping[str, NoWay] = field(default_factory=dict)
 
@@ -76,6 +78,7 @@ class FleetProgressState:
             np.zeros(count, np.bool_), np.zeros(count, np.bool_), out, np.zeros(count),
             np.zeros(count), np.zeros(count, np.int64), np.zeros(count, np.int64),
             np.full(count, np.inf), np.full(count, np.inf), fleet.rides.depart.copy(),
+            np.full((count, 2), np.inf),
         )  # fmt: skip
 
     def copied(self, time: float) -> FleetProgressState:
@@ -96,6 +99,7 @@ class FleetProgressState:
             stands=self.stands.copy(),
             stops_at=self.stops_at.copy(),
             sets_out=self.sets_out.copy(),
+            doubted=self.doubted.copy(),
             events=(),
         )
 
@@ -116,6 +120,7 @@ class FleetProgressState:
             heard=self.heard,
             out=self.out,
             paths=self.paths,
+            doubted=self.doubted,
         )
 
     def silences(self, longest: float, departs: Floats) -> list[FleetEvent]:

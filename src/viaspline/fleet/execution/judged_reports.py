@@ -16,6 +16,8 @@ LATE_S = 1e-9
 """So much later than now a report may say it is, for rounding."""
 NOISE_M = 0.1
 """By so much a report may be wrong without being refused."""
+SURE_S = 1.0
+"""Who has said for so long that it is where it can't have driven to is believed: it was pushed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +33,8 @@ class KnownFleet:
         heard: When each was last believed [s]; minus infinity: never, (n,).
         out: Whether a robot isn't listened to any more, (n,).
         paths: Which of its paths each one drives, (n,).
+        doubted: When [s] and where [m] each first said to be what it still said when it was last
+            refused; infinite: it wasn't since it was believed, (n, 2).
     """
 
     names: dict[str, int]
@@ -41,6 +45,28 @@ class KnownFleet:
     heard: Floats
     out: Flags
     paths: Ints
+    doubted: Floats
+
+    def farthest(self, report: ProgressReport, robot: int, margin: float) -> float:
+        """How far a robot can have come by its drive when it reports [m]."""
+        since = max(float(self.heard[robot]), float(self.departs[robot]))
+        can = float(self.fastest[robot]) * max(report.time - since, 0.0)
+        can += 2.0 * margin  # it was farther than it said, and then that was taken off
+        return min(float(self.progress[robot]), float(self.lengths[robot])) + can
+
+    def goes_on(self, report: ProgressReport, robot: int, margin: float) -> bool:
+        """Whether a robot may have come from where it wasn't believed to be to where it says."""
+        when, place = self.doubted[robot].tolist()
+        if not when <= report.time < math.inf:
+            return False
+        noise = NOISE_M + margin
+        most = float(self.fastest[robot]) * (report.time - when) + 2.0 * margin + noise
+        return bool(-noise <= report.distance - place <= most)
+
+    def insists(self, report: ProgressReport, robot: int, margin: float) -> bool:
+        """Whether a robot wasn't believed, and has said the same for so long that it is."""
+        is_long = report.time - self.doubted[robot, 0] >= SURE_S
+        return bool(is_long and self.goes_on(report, robot, margin))
 
 
 def judged(
@@ -50,7 +76,8 @@ def judged(
 
     A report from the future, of a place that the robot can't have come to, of no robot of the
     fleet, or without numbers is refused, and an old one is ignored. One of a place that it wasn't
-    let to, or farther back than it was, is believed: see ``strayed_robots``.
+    let to, or farther back than it was, is believed: see ``strayed_robots``. So is a robot that
+    goes on saying for ``SURE_S`` that it is where it can't have driven to.
 
     Args:
         report: Of a robot.
@@ -92,11 +119,9 @@ def _fault(
         return "refused", f"{says} of a path of {length:.2f} m; {remedy}"
     if report.arrived and report.distance < length - noise:
         return "refused", f"{says} and that it has arrived, which is at {length:.2f} m"
-    since = max(float(known.heard[robot]), float(known.departs[robot]))
-    can = float(known.fastest[robot]) * max(report.time - since, 0.0)
-    can += 2.0 * margin  # it was farther than it said, and then that was taken off
-    if report.distance > come + can + noise:
-        return "refused", f"{says}, but it can't have come farther than {come + can:.2f} m"
+    most = known.farthest(report, robot, margin)
+    if report.distance > most + noise and not known.insists(report, robot, margin):
+        return "refused", f"{says}, but it can't have come farther than {most:.2f} m"
     if report.distance < come - noise and math.isinf(known.progress[robot]):
         return "ignored", f"{says}, but it has left the world"
     return None

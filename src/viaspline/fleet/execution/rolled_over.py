@@ -83,6 +83,7 @@ def rolled_over(
         stands=state.stands,
         stops_at=state.stops_at - shift,
         sets_out=state.sets_out,
+        doubted=state.doubted - np.column_stack((np.zeros(len(shift)), shift)),
         events=state.events,
     )
 

@@ -95,6 +95,13 @@ def pushed_back(
     return FleetEvent("strayed", state.time, report.name, words, None, along)
 
 
+def pushed_on(state: FleetProgressState, report: ProgressReport) -> FleetEvent:
+    """A robot is farther on than it can have driven, and has said so for long."""
+    along = report.distance + float(state.driven[state.orders.names.index(report.name)])
+    words = f"{report.name} says {along:.2f} m, where it can't have driven to: it is believed now"
+    return FleetEvent("strayed", state.time, report.name, words, None, along)
+
+
 def hold_apart(
     state: FleetProgressState, fleet: DrivenFleet, margin: float, told: Set[str]
 ) -> list[FleetEvent]:
