@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import copy
 import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.fleet.crossing_paths import crossing_paths
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.fleet_ways import FleetWays
 from viaspline.fleet.plan_fleet import plan_by_priority, plan_fleet
+from viaspline.fleet.timed_fleet import TimedFleet
+from viaspline.fleet.unserved.explain_unserved import explain_unserved
 from viaspline.mission.fleet.fleet import Fleet
 
 CART = {"radius_m": 0.4, "clearance_m": 0.1, "max_speed_mps": 1.5}
@@ -86,6 +92,74 @@ def test_who_rests_in_an_aisle_is_to_leave_and_then_all_are_served() -> None:
         world=AISLE,
     )  # fmt: skip
     assert again.served
+
+
+def followed(data: dict[str, Any], remedy: str) -> dict[str, Any] | None:
+    """What is asked for if a remedy is followed; None: it says that it wasn't tried, or is none."""
+    if "wasn't tried" in remedy or "isn't served without" in remedy:
+        return None
+    then = copy.deepcopy(data)
+    members = {one["name"]: one for one in then["fleet"]}
+    names, numbers = re.findall(r"'(\w+)'", remedy), re.findall(r"-?\d+\.?\d*(?!\w*')", remedy)
+    if remedy.startswith("leave "):
+        then["fleet"] = [one for one in then["fleet"] if one["name"] not in names]
+    elif remedy.startswith("give "):
+        members[names[0]]["priority"] = float(numbers[-1])
+    elif "depart at" in remedy:
+        members[names[0]]["route"]["depart_s"] = float(numbers[-1])
+    elif remedy.endswith("leave (rest: leave)"):
+        members[names[0]]["rest"] = "leave"
+    elif remedy.startswith("move the "):
+        members[names[0]]["route"][remedy.split()[2]] = [float(one) for one in numbers[-2:]]
+    else:
+        assert remedy.startswith("ask for a separation of ")
+        then["separation_m"] = float(numbers[-1])
+    return then
+
+
+def follow(data: dict[str, Any]) -> int:
+    """Follow what helps each robot that isn't served; how many of these are served by that."""
+    plan, helped = plan_fleet(Fleet.model_validate(data)), 0
+    for missing in plan.not_served:
+        then = followed(data, missing.remedy)
+        if then is not None:
+            again = plan_fleet(Fleet.model_validate(then))
+            asked_then = {one["name"] for one in then["fleet"]}
+            assert {*plan.plans, missing.name} & asked_then <= set(again.plans), missing.remedy
+            assert missing.name in asked_then
+            helped += 1
+    return helped
+
+
+def test_of_robots_in_a_full_aisle_those_are_named_without_which_all_others_are_served() -> None:
+    """No single change helps: two go up, two go down, and it was said to leave one out, untried."""
+    ends = ((2, 24), (26, 4), (6, 28), (22, 1))
+    robots = [robot(f"r{k}", [a, 0.8], [b, 0.8]) for k, (a, b) in enumerate(ends)]
+    fleet = Fleet.model_validate(asked(*robots, world=AISLE))
+    paths = crossing_paths(fleet)
+    timed = TimedFleet.by_priority(FleetWays.of(fleet, paths)).past_standing_ones()
+    found = explain_unserved(fleet, paths, timed, budget=12.0)
+    assert {one.name: one.remedy for one in found} == {
+        "r0": "leave 'r1' and 'r3' out", "r1": "leave 'r0' and 'r2' out",
+        "r2": "leave 'r1' and 'r3' out", "r3": "leave 'r0' and 'r2' out",
+    }  # fmt: skip
+    assert planned(*robots[::2], world=AISLE).served
+    assert planned(*robots[1::2], world=AISLE).served
+
+
+@pytest.mark.slow
+@given(seed=st.integers(0, 10_000))
+@settings(max_examples=6, deadline=None)
+def test_what_is_said_to_help_helps_and_nobody_is_lost_by_it(seed: int) -> None:
+    """Three to five robots in an aisle with a pocket and a room at its end, at drawn places."""
+    random = np.random.default_rng(seed)
+    count = int(random.integers(3, 6))
+    starts, goals = (random.permutation(np.arange(a, 28.5, 1.5))[:count] for a in (2.0, 2.75))
+    robots = [
+        robot(f"r{k}", [a, 0.8], [b, 0.8], rest=str(random.choice(["stay", "leave"])))
+        for k, (a, b) in enumerate(zip(starts.tolist(), goals.tolist(), strict=True))
+    ]
+    follow(asked(*robots, world=side_step(2.0) | {"bounds": [0, 0, 30, 8]}))
 
 
 def test_of_what_is_told_while_a_route_is_dragged_nothing_was_tried() -> None:

@@ -10,6 +10,7 @@ Tested through ``fleet/test_unserved_fleets``.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 from viaspline.errors import ViasplineError
@@ -22,15 +23,19 @@ from viaspline.fleet.served_fleet import TRIAL_RELAY_S, TRIAL_REROUTE_S, served_
 from viaspline.fleet.timed_fleet import TimedFleet
 from viaspline.fleet.told_progress import FleetProgress, untold
 from viaspline.fleet.unserved.blocked_stretch import blocked_stretches
-from viaspline.fleet.unserved.fleet_changes import FleetChange, fleet_changes
+from viaspline.fleet.unserved.fleet_changes import FleetChange, fleet_changes, leaving_out
+from viaspline.fleet.unserved.left_out_robots import left_out_for
 from viaspline.fleet.unserved.pair_refusal import cannot_both_be_served
 from viaspline.fleet.unserved.unserved_words import Blocking, reason_of
 from viaspline.mission.fleet.fleet import Fleet
+from viaspline.planning.problem.work_budget import WorkBudget
 
 TRIAL_S = 1.0
 """What a trial costs beside its paths and their timing [s of the reference machine]."""
 PROOF_S = 2.0
 """What it costs to try a proof that two can't pass [s of the reference machine]."""
+LEFT_OUT_SHARE = 0.3
+"""Of what may be spent so much is for robots without which all others are served."""
 
 
 def explain_unserved(
@@ -50,22 +55,28 @@ def explain_unserved(
     Returns:
         One for each robot that has a path and no law, in their order.
     """
-    found, left = [], budget
+    found, kept = [], LEFT_OUT_SHARE * budget
+    left = budget - kept
     tried: dict[str, frozenset[str]] = {}
+    sets: list[FleetChange] = []
     for robot, other in sorted(timed.timing.blocked.items()):
-        one, spent = _explained(
-            fleet, paths, timed, robot, other, left, tried, _with_spent(budget - left, budget, tell)
-        )
-        found.append(one)
+        told = _with_spent(budget - left - kept, budget, tell)
+        one, helps, spent = _explained(fleet, paths, timed, robot, other, left, tried, told)
         left -= spent
+        if not helps:
+            work = WorkBudget(kept)
+            change = _without_others(fleet, paths, timed, robot, work, tried, sets)
+            kept -= work.spent
+            one = one if change is None else replace(one, remedy=change.words)
+        found.append(one)
     return tuple(found)
 
 
 def _explained(
     fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, robot: int, other: int, budget: float,
     tried: dict[str, frozenset[str]], told: Callable[[float], None],
-) -> tuple[NotServed, float]:  # fmt: skip
-    """Why a robot couldn't be timed and what would help, and what it cost to find out [s].
+) -> tuple[NotServed, bool, float]:  # fmt: skip
+    """Why a robot couldn't be timed, what would, whether it does, and what that cost [s].
 
     What comes of changes that are tried is added to those that were. What it has cost is told as it
     goes on.
@@ -81,6 +92,7 @@ def _explained(
                 "the order in which all robots pass each other could not be kept",
                 "give the robots more room, or take some out",
             ),
+            False,
             0.0,
         )  # fmt: skip
     blocking = Blocking(names[robot], names[other], other in timed.timing.blocked, stretches[0])
@@ -91,6 +103,7 @@ def _explained(
     cost = _trial_cost(timed)
     served = {one for k, one in enumerate(names) if k not in timed.timing.blocked}
     remedy: str | None = None
+    helps = False
     for change in fleet_changes(fleet, timed, stretches):
         if change.words not in tried:
             spent += cost if change.lays_all else TRIAL_S
@@ -106,13 +119,53 @@ def _explained(
             spent += work.budget.spent
         kept = {one.name for one in change.fleet.members}
         if (served & kept) | {names[robot]} <= tried[change.words]:
-            remedy = change.words
+            remedy, helps = change.words, True
             break
     if remedy is None:
         remedy = f"leave '{names[robot]}' out: it isn't served without '{names[other]}' either"
     outcome: Outcome = "refused" if is_proven else "gave up"
     reason = reason_of(blocking, is_proven=is_proven)
-    return NotServed(names[robot], outcome, reason, remedy, (names[other],), where), spent
+    return NotServed(names[robot], outcome, reason, remedy, (names[other],), where), helps, spent
+
+
+def _without_others(
+    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, robot: int, work: WorkBudget,
+    tried: dict[str, frozenset[str]], sets: list[FleetChange],
+) -> FleetChange | None:  # fmt: skip
+    """The fleet without robots that are in the way of one, if it and all others are served then.
+
+    More have to be served by it than are so without.
+
+    Args:
+        fleet: What is asked for.
+        paths: That were laid for it.
+        timed: What came of it.
+        robot: The one that is to be served.
+        work: What may be spent.
+        tried: Who is served with the changes that were tried, by their words.
+        sets: Those of these changes that leave several out and serve all others; more are added.
+    """
+    names = timed.ways.courses.names
+    for known in sets:
+        if names[robot] in tried[known.words]:
+            return known
+    out = left_out_for(timed, robot, fleet.separation_m, work)
+    left = set() if out is None else {names[k] for k in out}
+    while 0 < len(left) < len(timed.timing.blocked) and names[robot] not in left:
+        change = leaving_out(fleet, [name for name in names if name in left])
+        if change is None:
+            return None
+        if change.words not in tried:
+            if work.left < _trial_cost(timed):
+                return None
+            work.spent += _trial_cost(timed)
+            tried[change.words] = _served_with(change, fleet, paths, LayingWork.of(0.0), untold)
+        others = set(names) - left - tried[change.words]
+        if not others:
+            sets.append(change)
+            return change
+        left |= others  # along the paths that they have without the first ones they aren't served
+    return None
 
 
 def _with_spent(before: float, budget: float, tell: FleetProgress) -> Callable[[float], None]:

@@ -66,6 +66,20 @@ def fleet_changes(
     yield from _fleet(rest, fleet.separation_m, f"leave '{its.name}' out", lays_all=True)
 
 
+def leaving_out(fleet: Fleet, names: Sequence[str]) -> FleetChange | None:
+    """The fleet without some robots; None where nothing sound is left.
+
+    Args:
+        fleet: What was asked for.
+        names: Of the robots, at least one.
+    """
+    quoted = [f"'{name}'" for name in names]
+    listed = " and ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
+    members = [one for one in fleet.members if one.name not in names]
+    words = f"leave {listed} out"
+    return next(_fleet(members, fleet.separation_m, words, lays_all=True), None)
+
+
 def _departures(
     fleet: Fleet, timed: TimedFleet, stretches: Sequence[BlockedStretch]
 ) -> Iterator[FleetChange]:
