@@ -157,6 +157,18 @@ def test_two_that_change_places_are_led_round_each_other() -> None:
     check(plan, 1.0)
 
 
+def test_it_is_told_that_other_paths_are_sought() -> None:
+    told: list[tuple[str, float]] = []
+    one, other = [0, 0, 5], [40, 0, 5]
+    fleet = vs.Fleet.model_validate({
+        "separation_m": 1.0, "robots": {"flat": FLAT},
+        "fleet": [drone("a", one, other), drone("b", other, one)],
+    })  # fmt: skip
+    assert vs.plan_fleet(fleet, progress=lambda stage, share: told.append((stage, share))).served
+    assert "looking for other paths" in dict(told)
+    assert all(0.0 <= share <= 1.0 for _, share in told)
+
+
 def test_a_path_goes_round_a_robot_that_hovers() -> None:
     plan = planned(drone("a", [0, 0, 10], [40, 0, 10]),
                    drone("b", [20, 0.3, 10], [20, 30, 10], depart_s=1000))  # fmt: skip

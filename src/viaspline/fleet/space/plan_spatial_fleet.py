@@ -7,7 +7,7 @@ that is in its way, and else it is said that the planner gave up.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import permutations
 from typing import Final
@@ -30,6 +30,7 @@ from viaspline.fleet.space.timed_past_moving import (
 )
 from viaspline.fleet.space.ways_past_moving import WaysPastMoving
 from viaspline.fleet.timed_fleet import TimedFleet
+from viaspline.fleet.told_progress import FleetProgress
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.space.spatial_plan import SpatialPlan
 
@@ -38,7 +39,7 @@ MAX_LED: Final = 12
 
 
 def plan_spatial_fleet(
-    fleet: Fleet, improve: float, tell: Callable[[str, float], None], workers: LayingWorkers,
+    fleet: Fleet, improve: float, tell: FleetProgress, workers: LayingWorkers,
     periods: int,
 ) -> FleetPlan:  # fmt: skip
     """Plan a fleet in space.
@@ -81,7 +82,7 @@ def plan_spatial_fleet(
     tell("timing", 0.0)
     members = [one for one in fleet.members if one.name in laid.plans]
     plans: dict[str, AnyPlan] = {one.name: laid.plans[one.name] for one in members}
-    timed = _timed(FleetWays.laid(members, plans, fleet.separation_m), fleet, periods)
+    timed = _timed(FleetWays.laid(members, plans, fleet.separation_m), fleet, periods, tell)
     if improve > 0.0:
         sooner = (
             sooner_past_moving if isinstance(timed.ways, WaysPastMoving) else TimedFleet.improved
@@ -91,11 +92,11 @@ def plan_spatial_fleet(
     return _planned(fleet, timed, (*laid.not_served, *_unserved(timed)))
 
 
-def _timed(ways: FleetWays, fleet: Fleet, periods: int) -> TimedFleet:
+def _timed(ways: FleetWays, fleet: Fleet, periods: int, tell: FleetProgress) -> TimedFleet:
     """Robots timed along their ways, past what moves, and past patrols that never end."""
 
     def serve(among: FleetWays, left_out: dict[int, int]) -> TimedFleet:
-        return _served(among, left_out, fleet.separation_m)
+        return _served(among, left_out, fleet.separation_m, tell)
 
     if ways.members and fleet.world.moving:
         return timed_past_moving(ways, serve)
@@ -104,13 +105,16 @@ def _timed(ways: FleetWays, fleet: Fleet, periods: int) -> TimedFleet:
     return serve(ways, {})
 
 
-def _served(ways: FleetWays, left_out: dict[int, int], separation: float) -> TimedFleet:
+def _served(
+    ways: FleetWays, left_out: dict[int, int], separation: float, tell: FleetProgress
+) -> TimedFleet:
     """Robots timed; those that can't be, led round who is in their way, as far as that helps.
 
     Args:
         ways: Theirs.
         left_out: Those that stand at their starts, each with what is in its way.
         separation: Free space between any two bodies [m].
+        tell: Told each time that one is led round another.
     """
     timed = TimedFleet.by_priority(ways, left_out)
     tried: set[tuple[int, int]] = set()
@@ -124,6 +128,7 @@ def _served(ways: FleetWays, left_out: dict[int, int], separation: float) -> Tim
         if not pairs:
             break
         robot, other = pairs[0]
+        tell("looking for other paths", len(tried) / MAX_LED)
         tried.add((robot, other))
         led = led_apart(timed.ways, robot, other, separation)
         again = None if led is None else TimedFleet.by_priority(led, left_out)
