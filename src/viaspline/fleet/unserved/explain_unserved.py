@@ -35,7 +35,9 @@ TRIAL_S = 1.0
 PROOF_S = 2.0
 """What it costs to try a proof that two can't pass [s of the reference machine]."""
 LEFT_OUT_SHARE = 0.3
-"""Of what may be spent so much is for robots without which all others are served."""
+"""Of what may be spent so much at most is for robots without which all others are served,"""
+MANY_UNSERVED = 3
+"""which are sought where so many aren't; of fewer each other one is left out by itself anyway."""
 
 
 def explain_unserved(
@@ -55,19 +57,19 @@ def explain_unserved(
     Returns:
         One for each robot that has a path and no law, in their order.
     """
-    found, kept = [], LEFT_OUT_SHARE * budget
-    left = budget - kept
+    blocked = sorted(timed.timing.blocked.items())
+    told = _with_spent(0.0, budget, tell)
+    told(0.0)
+    work = WorkBudget(LEFT_OUT_SHARE * budget)
+    without = _without_others(fleet, paths, timed, work) if len(blocked) >= MANY_UNSERVED else {}
+    found, left = [], budget - work.spent
     tried: dict[str, frozenset[str]] = {}
-    sets: list[FleetChange] = []
-    for robot, other in sorted(timed.timing.blocked.items()):
-        told = _with_spent(budget - left - kept, budget, tell)
+    for robot, other in blocked:
+        told = _with_spent(budget - left, budget, tell)
         one, helps, spent = _explained(fleet, paths, timed, robot, other, left, tried, told)
         left -= spent
-        if not helps:
-            work = WorkBudget(kept)
-            change = _without_others(fleet, paths, timed, robot, work, tried, sets)
-            kept -= work.spent
-            one = one if change is None else replace(one, remedy=change.words)
+        if not helps and robot in without:
+            one = replace(one, remedy=without[robot])
         found.append(one)
     return tuple(found)
 
@@ -129,10 +131,9 @@ def _explained(
 
 
 def _without_others(
-    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, robot: int, work: WorkBudget,
-    tried: dict[str, frozenset[str]], sets: list[FleetChange],
-) -> FleetChange | None:  # fmt: skip
-    """The fleet without robots that are in the way of one, if it and all others are served then.
+    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, work: WorkBudget
+) -> dict[int, str]:
+    """For robots that aren't served whom to leave out, in words, so that all others are served.
 
     More have to be served by it than are so without.
 
@@ -140,32 +141,28 @@ def _without_others(
         fleet: What is asked for.
         paths: That were laid for it.
         timed: What came of it.
-        robot: The one that is to be served.
         work: What may be spent.
-        tried: Who is served with the changes that were tried, by their words.
-        sets: Those of these changes that leave several out and serve all others; more are added.
     """
-    names = timed.ways.courses.names
-    for known in sets:
-        if names[robot] in tried[known.words]:
-            return known
-    out = left_out_for(timed, robot, fleet.separation_m, work)
-    left = set() if out is None else {names[k] for k in out}
-    while 0 < len(left) < len(timed.timing.blocked) and names[robot] not in left:
-        change = leaving_out(fleet, [name for name in names if name in left])
-        if change is None:
-            return None
-        if change.words not in tried:
-            if work.left < _trial_cost(timed):
-                return None
-            work.spent += _trial_cost(timed)
-            tried[change.words] = _served_with(change, fleet, paths, LayingWork.of(0.0), untold)
-        others = set(names) - left - tried[change.words]
-        if not others:
-            sets.append(change)
-            return change
-        left |= others  # along the paths that they have without the first ones they aren't served
-    return None
+    names, cost = timed.ways.courses.names, _trial_cost(timed)
+    found: dict[int, str] = {}
+    for robot in sorted(timed.timing.blocked):
+        if robot in found:
+            continue
+        out = left_out_for(timed, robot, fleet.separation_m, work)
+        left = set() if out is None else {names[k] for k in out}
+        while 0 < len(left) < len(timed.timing.blocked) and names[robot] not in left:
+            change = leaving_out(fleet, [name for name in names if name in left])
+            if change is None or work.left < cost:
+                break
+            work.spent += cost
+            served = _served_with(change, fleet, paths, LayingWork.of(0.0), untold)
+            others = set(names) - left - served
+            if not others:
+                here = [k for k in timed.timing.blocked if names[k] not in left]
+                found = dict.fromkeys(here, change.words) | found
+                break
+            left |= others  # along the paths that they have without the first ones they aren't
+    return found
 
 
 def _with_spent(before: float, budget: float, tell: FleetProgress) -> Callable[[float], None]:
