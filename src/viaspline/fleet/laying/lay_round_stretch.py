@@ -8,6 +8,7 @@ Tested through ``fleet/test_rerouted_fleet``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -72,8 +73,8 @@ def lay_round_stretch(
     indices = range(len(free))
     world = world_with_rests(alone.plan, alone.mission, reach, discs, indices, KEPT_MORE_M)
     try:
-        check_soon_laid(alone.mission, world, alone.plan.tracking_error, work)
-        off = plan_in(alone.mission, world)
+        took = check_soon_laid(alone.mission, world, alone.plan.tracking_error, work)
+        off = plan_in(alone.mission, world, WorkBudget(math.inf, poses=WorkBudget(took)))
         found = lay_among_rests(off, alone.mission, name, reach, rests, work).plan
     except (PlanningError, GeometryError):
         return None

@@ -9,6 +9,7 @@ Tested through ``fleet/test_rerouted_fleet``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from viaspline.mission.model import Mission
@@ -18,7 +19,7 @@ from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.world.world import World
 
 
-def check_soon_laid(mission: Mission, world: World, error: float, work: WorkBudget) -> None:
+def check_soon_laid(mission: Mission, world: World, error: float, work: WorkBudget) -> float:
     """Find a path for a body within what may be spent, and take off as much for laying it.
 
     Its own path isn't that one: with time to spare it is bent more gently.
@@ -29,16 +30,22 @@ def check_soon_laid(mission: Mission, world: World, error: float, work: WorkBudg
         error: How far the robot gets beside its path [m].
         work: What may be spent.
 
+    Returns:
+        What it took, and may take another time [s of the reference machine]; infinite: nothing is
+        sought for such a body.
+
     Raises:
         SpentBudgetError: When that didn't do.
         PlanningError: When there is none, or none was found.
     """
     requirements = Requirements.of(mission, error)
     if requirements.is_free_disc:
-        return
+        return math.inf
     if mission.spline.tension == "auto":
         spline = requirements.spline.model_copy(update={"tension": None})
         requirements = replace(requirements, spline=spline)
     before = work.spent
     find_drive(mission, world, requirements.within(work))
-    work.spent += work.spent - before
+    took = work.spent - before
+    work.spent += took
+    return took
