@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
@@ -74,3 +74,20 @@ def test_a_start_too_fast_to_come_to_rest_names_the_place() -> None:
         1.0, 1.0, 9.0, 0.0,
     )  # fmt: skip
     assert missed == 4.0
+
+
+@given(seeds)
+@example(200)
+@settings(deadline=None, max_examples=40)
+def test_no_slope_is_steeper_where_caps_are_reached_just_at_ends_of_stretches(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    ramps = rng.uniform(0.05, 9.0, int(rng.integers(1, 6)))
+    steps = np.concatenate((ramps, ramps[::-1])) / 1.4  # up for one ramp after the other, and down
+    distances = rng.uniform(0.0, 300.0) + np.concatenate(([0.0], np.cumsum(steps)))
+    reached = np.cumsum(ramps)
+    caps = np.concatenate((reached, reached[::-1]))
+    rests = np.zeros(len(distances), np.bool_)
+    points, squares, _, _ = two_pass_profile(distances, caps, rests, 0.7, 0.7, 0.0, 0.0)
+    slopes = np.diff(squares) / np.diff(points)
+    assert np.abs(slopes).max() <= 1.4 * (1.0 + 1e-6)
+    assert squares.max() >= reached[-1] - 1e-4

@@ -6,10 +6,17 @@ profile given at its break points is exact between them.
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.jit import inner, kernel
+
+APART: Final = 1e-12
+"""Break points within a stretch that are nearer to another point, as a share of the farthest
+distance, are left out: what lies between is little more than rounding, and so would be its slope.
+"""
 
 
 @inner
@@ -39,21 +46,25 @@ def _peak(
     cap: float,
     accel: float,
     brake: float,
+    apart: float,
     s: Floats,
     e: Floats,
     count: int,
 ) -> int:
-    """Break points inside a stretch whose ends have the v² ``low`` and ``high``."""
+    """Break points inside a stretch whose ends have the v² ``low`` and ``high``.
+
+    Without one of them v² is less steep, and nowhere higher.
+    """
     up, down, width = 2.0 * accel, 2.0 * brake, right - left
     rise, fall = (cap - low) / up, width - (cap - high) / down
     if rise < fall:
         for x in (rise, fall):
-            if s[count - 1] < left + x < right:
+            if s[count - 1] + apart < left + x < right - apart:
                 s[count], e[count] = left + x, cap
                 count += 1
         return count
     x = (high - low + down * width) / (up + down)
-    if s[count - 1] < left + x < right:
+    if s[count - 1] + apart < left + x < right - apart:
         s[count], e[count] = left + x, low + up * x
         count += 1
     return count
@@ -89,6 +100,7 @@ def two_pass_profile(
     n = distances.shape[0]
     up, down = 2.0 * accel, 2.0 * brake
     slip = 1e-12 + 1e-14 * brake * abs(distances[n - 1])
+    apart = APART * max(abs(distances[0]), abs(distances[n - 1]))
     back = _backward(distances, caps, rests, brake, last)
     s, e = np.empty(4 * n), np.empty(4 * n)
     count, over, missed = 1, distances[0], np.nan
@@ -114,7 +126,7 @@ def two_pass_profile(
                 s[count], e[count] = left, low
                 count += 1
         high = min(back[i + 1], max(low, 0.0) + up * (right - left))
-        count = _peak(left, right, low, high, cap, accel, brake, s, e, count)
+        count = _peak(left, right, low, high, cap, accel, brake, apart, s, e, count)
         if right > s[count - 1]:
             s[count], e[count] = right, high
             count += 1
