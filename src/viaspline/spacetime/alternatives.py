@@ -32,8 +32,8 @@ something is near the path,"""
 PLACES_AROUND = 24
 """and at so many instants of that the path is led round it."""
 
-LAID_S = 2.0
-"""What laying one of them may spend [s of the reference machine]."""
+LAID_S = 0.5
+"""What laying one of them may spend [s of the reference machine]; most take a hundredth of that."""
 
 SIDES: tuple[Side, Side] = ("left", "right")
 

@@ -35,6 +35,9 @@ from viaspline.trajectory.yielding.waits import TrafficWait, waits
 MAX_PATHS = 48
 """Paths that are timed at most."""
 
+SAME_M = 1e-3
+"""Paths that differ by less are one [m]: led round what is met ever anew, they draw together."""
+
 ENOUGH_SEARCHED = 2
 """After so many drives that were searched it is enough."""
 
@@ -130,7 +133,7 @@ def _beside(problem: TimedProblem, first: Alternative, tried: _Tried) -> _Tried:
     Where it is met comes first; where that is before or afterwards one path after the other, as
     long as nothing else is left that could be better.
     """
-    ahead = _Ahead(problem, {first.solution.path.spans.tobytes()}, [])
+    ahead = _Ahead(problem, {_key(first)}, [])
     elsewhere = _elsewhere(problem, first, tried.outcomes[0])
     near = alternatives_to(problem, first)
     while len(tried.outcomes) < MAX_PATHS and not problem.budget.is_spent:
@@ -153,7 +156,7 @@ class _Ahead:
 
     Attributes:
         problem: What is asked.
-        seen: All that were laid.
+        seen: Keys of all that were laid.
         queue: With what each would cost if nothing moved.
     """
 
@@ -163,7 +166,7 @@ class _Ahead:
 
     def add(self, other: Alternative) -> None:
         """Put in one more, unless it was laid before."""
-        key = other.solution.path.spans.tobytes()
+        key = _key(other)
         if key not in self.seen and len(self.seen) <= 2 * MAX_PATHS:
             self.seen.add(key)
             cost = self.problem.cost(other.solution.path, other.free)
@@ -178,6 +181,11 @@ class _Ahead:
     def pop(self) -> Alternative:
         """Take out the first."""
         return heapq.heappop(self.queue)[2]
+
+
+def _key(laid: Alternative) -> bytes:
+    """What is one for paths that count as one."""
+    return np.round(laid.solution.path.spans / SAME_M).tobytes()
 
 
 def _waits(problem: TimedProblem, best: TimedDrive) -> tuple[TrafficWait, ...]:

@@ -26,8 +26,6 @@ from viaspline.spacetime.alternatives import Alternative
 from viaspline.spacetime.smoothed_drive import places_along, smooth_spans
 from viaspline.spacetime.timed_problem import TimedProblem
 
-QUANTA = 2
-"""The largest acceleration, in quanta: so finely is its direction told."""
 LONGEST_STEP_S = 1.0
 """A step is no longer, however slowly the robot speeds up [s]."""
 MAX_LEVELS = 60
@@ -44,6 +42,7 @@ class ThrustEffort:
         states: How many it looks at, at most.
         levels: So many levels of speed it tells apart where steps aren't too long for that.
         cell: Bits of a place within which states are one.
+        quanta: The largest acceleration, in quanta: so finely is its direction told.
     """
 
     spare: float
@@ -51,6 +50,7 @@ class ThrustEffort:
     states: int
     levels: int
     cell: int
+    quanta: int = 2
 
 
 EFFORTS = (
@@ -58,8 +58,10 @@ EFFORTS = (
     ThrustEffort(0.05, 1.1, 12_000, 8, 2),
     ThrustEffort(0.05, 1.2, 30_000, 4, 0),
     ThrustEffort(0.01, 1.1, 8_000, 8, 2),
+    ThrustEffort(0.01, 1.2, 9_000, 8, 2, quanta=3),
 )
-"""One after the other: in the open, the same more closely, out of a dead end, through a gap."""
+"""One after the other: in the open, the same more closely, out of a dead end, through a gap, and
+aside in more directions."""
 
 
 FOLLOWED = (2, 6)
@@ -144,10 +146,10 @@ def _lattice(problem: TimedProblem, effort: ThrustEffort, begin: float) -> Thrus
     """Steps and speeds for a robot's limits, from a time on [s]."""
     limits = problem.limits
     hardest = min(limits.max_accel, limits.brake, limits.max_lateral_accel or math.inf)
-    step = min(LONGEST_STEP_S, QUANTA * limits.max_speed / (effort.levels * hardest))
-    quantum = hardest * step / QUANTA
+    step = min(LONGEST_STEP_S, effort.quanta * limits.max_speed / (effort.levels * hardest))
+    quantum = hardest * step / effort.quanta
     levels = min(int(limits.max_speed / quantum + 1e-9), MAX_LEVELS)
-    return ThrustLattice(begin, step, quantum, max(levels, 1), QUANTA, effort.cell)
+    return ThrustLattice(begin, step, quantum, max(levels, 1), effort.quanta, effort.cell)
 
 
 def _path_along(drives: Sequence[Floats], vias: tuple[RouteVia, ...], pieces: int) -> Path:
