@@ -19,6 +19,7 @@ from viaspline.curve.certificate import Certificate
 from viaspline.errors import GaveUpError, NoPathError
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.ledger import Candidate
+from viaspline.space.cheapest_route import CheapestRoute
 from viaspline.space.laying.clear_route import StuckLegError
 from viaspline.space.laying.laid_route import RouteLegs
 from viaspline.space.laying.sooner_corners import with_fewer
@@ -286,7 +287,7 @@ def through_a_via_point(seed: int) -> tuple[Mission, RouteLayer, RouteLegs]:
 def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int) -> None:
     """With its neighbour another way is better than the one that is the best alone."""
     mission, layer, legs = through_a_via_point(seed)
-    together, alone = layer.cheapest(legs)
+    together, alone = CheapestRoute(layer).routes(legs)
     cost = cost_of(layer.problem)
     assert cost(together.laid) < cost(alone.laid)
     plan = vs.plan(mission)
@@ -299,7 +300,7 @@ def test_a_leg_takes_the_way_with_which_the_whole_route_is_the_soonest(seed: int
 def test_no_corner_is_left_out_of_a_route_that_makes_it_sooner(seed: int) -> None:
     """Alone, from rest to rest, the leg has that corner: it costs no time there."""
     _, layer, legs = through_a_via_point(seed)
-    best, cost = layer.cheapest(legs)[0], cost_of(layer.problem)
+    best, cost = CheapestRoute(layer).routes(legs)[0], cost_of(layer.problem)
     for leg, way in best.ways.items():
         points = np.concatenate((legs.vias[leg][None], way.inner, legs.vias[leg + 1][None]))
         for fewer in with_fewer(points, layer.radius):

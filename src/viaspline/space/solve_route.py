@@ -18,6 +18,7 @@ from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GaveUpError, NoPathError
 from viaspline.kernels.arrays import Floats
+from viaspline.space.cheapest_route import CheapestRoute
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError
 from viaspline.space.laying.corner_rounding import straight_span
 from viaspline.space.laying.gentle_turns import DEARER, ROUND_DEARER, GentleTurns
@@ -67,7 +68,7 @@ def solve_route(
     check = LegCheck(problem, cache(router.gates))
     layer = RouteLayer(problem, router, check, known={} if known is None else known)
     try:
-        routes = layer.cheapest(legs)
+        routes = CheapestRoute(layer).routes(legs)
     except StuckLegError as stuck:
         raise _gave_up(problem, stuck) from None
     first = problem.vias[0]
