@@ -28,6 +28,7 @@ class CsvPath:
         {"speeds", "times", "dwells", "headings", "names"}
     )
     is_geographic: ClassVar[bool] = False
+    is_cut_at_180: ClassVar[bool] = False
     is_driven: ClassVar[bool] = False
     spacing: ClassVar[float | None] = None
 

@@ -22,6 +22,7 @@ class GpxPath:
     endings: ClassVar[tuple[str, ...]] = (".gpx",)
     carries: ClassVar[frozenset[Carried]] = frozenset({"names", "dwells"})
     is_geographic: ClassVar[bool] = True
+    is_cut_at_180: ClassVar[bool] = False
     is_driven: ClassVar[bool] = False
     spacing: ClassVar[float | None] = None
 

@@ -22,6 +22,7 @@ class JsonPath:
         {"speeds", "times", "dwells", "headings", "names", "curve"}
     )
     is_geographic: ClassVar[bool] = False
+    is_cut_at_180: ClassVar[bool] = False
     is_driven: ClassVar[bool] = False
     spacing: ClassVar[float | None] = None
 

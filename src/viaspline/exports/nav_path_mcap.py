@@ -35,6 +35,7 @@ class NavPathMcap:
     endings: ClassVar[tuple[str, ...]] = (".mcap",)
     carries: ClassVar[frozenset[Carried]] = frozenset({"times", "headings"})
     is_geographic: ClassVar[bool] = False
+    is_cut_at_180: ClassVar[bool] = False
     is_driven: ClassVar[bool] = False
     spacing: ClassVar[float | None] = 0.1
 

@@ -27,6 +27,7 @@ class NavPathYaml:
     endings: ClassVar[tuple[str, ...]] = (".path.yaml", ".path.yml", "-path.yaml")
     carries: ClassVar[frozenset[Carried]] = frozenset({"times", "headings"})
     is_geographic: ClassVar[bool] = False
+    is_cut_at_180: ClassVar[bool] = False
     is_driven: ClassVar[bool] = False
     spacing: ClassVar[float | None] = 0.1
 

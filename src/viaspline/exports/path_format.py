@@ -26,6 +26,7 @@ class PathFormat(Protocol):
         endings: How its files end, in small letters.
         carries: What goes along with the points.
         is_geographic: Whether its places are latitudes and longitudes.
+        is_cut_at_180: Whether its lines end at the meridian of 180°, and others go on from there.
         is_driven: Whether its readers drive from point to point, at a speed that is set and turning
             within an acceptance radius.
         spacing: The longest line, if nobody asks for another one [m]; None: as long as may be.
@@ -35,6 +36,7 @@ class PathFormat(Protocol):
     endings: ClassVar[tuple[str, ...]]
     carries: ClassVar[frozenset[Carried]]
     is_geographic: ClassVar[bool]
+    is_cut_at_180: ClassVar[bool]
     is_driven: ClassVar[bool]
     spacing: ClassVar[float | None]
 

@@ -29,6 +29,7 @@ class PlanOfPath:
     endings: ClassVar[tuple[str, ...]] = (".plan",)
     carries: ClassVar[frozenset[Carried]] = frozenset({"speeds", "dwells", "headings", "fences"})
     is_geographic: ClassVar[bool] = True
+    is_cut_at_180: ClassVar[bool] = False
     is_driven: ClassVar[bool] = True
     spacing: ClassVar[float | None] = None
 

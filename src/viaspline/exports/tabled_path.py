@@ -15,6 +15,7 @@ from viaspline.curve.path import Path as ProvenPath
 from viaspline.errors import OutputError
 from viaspline.exports.clear_polyline import ClearPolyline, polyline_proof
 from viaspline.exports.cut_plan import cut_plan, not_clear, settable_speeds
+from viaspline.exports.date_line import GeoCorners, with_crossings
 from viaspline.exports.export_options import ExportOptions
 from viaspline.exports.line_proof import LineProver
 from viaspline.exports.line_speeds import set_speeds
@@ -48,9 +49,10 @@ def rendered(
     frame = _frame(kind, options, target, plan.path)
     lines, acceptance = cut_plan(plan, kind, options, target)
     points, geodetic = _as_written(lines.points, frame if kind.is_geographic else None)
-    lines = polyline_proof(
-        plan.path, LineProver.of(plan), lines.parameters, points, acceptance or 0.0
-    )
+    u = lines.parameters
+    if kind.is_cut_at_180 and frame is not None and geodetic is not None:
+        u, points, geodetic = with_crossings(GeoCorners(u, points, geodetic), plan.path, frame)
+    lines = polyline_proof(plan.path, LineProver.of(plan), u, points, acceptance or 0.0)
     if not lines.holds:
         raise not_clear(lines, acceptance, target)
     if frame is not None and geodetic is None:

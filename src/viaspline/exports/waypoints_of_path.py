@@ -23,6 +23,7 @@ class WaypointsOfPath:
     endings: ClassVar[tuple[str, ...]] = (".waypoints", ".txt")
     carries: ClassVar[frozenset[Carried]] = frozenset({"speeds", "dwells"})
     is_geographic: ClassVar[bool] = True
+    is_cut_at_180: ClassVar[bool] = False
     is_driven: ClassVar[bool] = True
     spacing: ClassVar[float | None] = None
 
