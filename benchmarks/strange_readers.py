@@ -87,8 +87,11 @@ def _mcap(file: Path, home: float) -> tuple[np.ndarray, None]:
 
 def _geojson(file: Path, home: float) -> tuple[np.ndarray, float]:
     features = json.loads(file.read_text(encoding="utf-8"))["features"]
-    line = next(one for one in features if one["geometry"]["type"] == "LineString")
-    at = np.array(line["geometry"]["coordinates"])
+    line = next(one for one in features if one["geometry"]["type"].endswith("LineString"))
+    at = line["geometry"]["coordinates"]
+    if line["geometry"]["type"] == "MultiLineString":  # cut at 180 degrees, where parts join
+        at = [*at[0], *(place for part in at[1:] for place in part[1:])]
+    at = np.array(at)
     dwells = sum(one["properties"].get("dwell_s", 0.0) for one in features)
     return _degrees(at), dwells
 

@@ -56,6 +56,21 @@ def test_a_plan_begins_when_its_robot_may_depart_where_only_unseen_things_move(d
     assert late.trajectory.duration == pytest.approx(early.trajectory.duration, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("unseen", "begins", "robot"),
+    [
+        ([CROSSING], DEPARTS_S, {"sensor": LIDAR}),
+        ([CROSSING], DEPARTS_S, {"sensor": RANGE, "moving": PASSIVE}),
+        ([BESIDE], 0.0, {"sensor": LIDAR}),
+    ],
+)
+def test_its_first_law_begins_when_its_plan_does(
+    unseen: list[Any], begins: float, robot: dict[str, Any]
+) -> None:
+    nav = Navigator(mission({"unseen": unseen}, **robot), warm=False)
+    assert nav.trajectory.start_time == begins
+
+
 def test_a_robot_that_was_held_still_before_it_may_depart_stays_until_then() -> None:
     nav = Navigator(mission({"known": [FAR]}), reaction=STEP_S, period=STEP_S, warm=False)
     for time, stamp in ((0.0, 0.0), (1.0, 0.0), (1.1, 1.1), (1.2, 1.2), (2.0, 0.0), (3.0, 3.0)):

@@ -65,6 +65,9 @@ def at_start(task: DriveTask, plan: Plan) -> NavigationState:
     )
     if changes and plan.timed is None:
         schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
+        law = schedule.trajectory
+        begins = law.delayed(plan.trajectory.start_time - law.start_time)
+        schedule = replace(schedule, trajectory=begins)
     return NavigationState(progress, knowledge, schedule, Log())
 
 
