@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,22 @@ LEAST_GAIN: Final = 1e-3
 LEAST_SHORTER: Final = 0.02
 """Part of the length of a route that has to be gained by leaving the spline where it is clear."""
 
+MOST_FINISHED: Final = 3
+"""So many routes with other ways of their legs are laid with fewer corners and closer turns, at
+most,"""
+
+NEARLY: Final = 1.1
+"""if they cost no more than that, of the cheapest."""
+
 MOST_FEWER: Final = 16
 """So many ways with fewer corners are tried in their route at most."""
+
+
+class PricedRoute(NamedTuple):
+    """A route with what it costs as a whole [s or m]."""
+
+    cost: float
+    route: LedRoute
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +86,17 @@ class CheapestRoute:
         ]
         if differ:
             best = self._by_other_ways(legs, best, differ)
-        together = self._with_fewer_corners(legs, self._best_together(legs, best))
-        together = self._laid_sooner(together)
+        if not best.ways:  # a spline that is clear
+            return [best]
+        finished = [
+            self._laid_sooner(self._with_fewer_corners(legs, one))
+            for one in self._best_together(legs, best)
+        ]
+        together = min(finished, key=attrgetter("cost")).route
         return [best] if together is best else [together, best]
+
+    def _priced(self, route: LedRoute) -> PricedRoute:
+        return PricedRoute(cost_of(self.layer.problem)(route.laid), route)
 
     def _by_other_ways(self, legs: RouteLegs, best: LedRoute, differ: list[int]) -> LedRoute:
         """A route with all corners of some of its legs, where that makes the whole of it cheaper.
@@ -97,24 +119,29 @@ class CheapestRoute:
                 best, least, taut = other, price, tried
         return best
 
-    def _best_together(self, legs: RouteLegs, found: LedRoute) -> LedRoute:
-        """A route with other ways of its legs, one after the other, as long as it gets cheaper.
+    def _best_together(self, legs: RouteLegs, found: LedRoute) -> Sequence[PricedRoute]:
+        """Routes with other ways of their legs that are nearly the cheapest, the cheapest first.
 
-        One leg that is all of the route is weighed alone.
+        Legs are led otherwise one after the other, as long as it gets cheaper. What is gained by
+        fewer corners and closer turns afterwards is more than what such routes differ by. One leg
+        that is all of the route is weighed alone.
         """
+        best = self._priced(found)
         if len(legs.inner) == 1 or len(found.ways) > MOST_LEGS:
-            return found
-        cost = cost_of(self.layer.problem)
-        best, least = found, cost(found.laid)
+            return [best]
+        tried = [best]
         for leg in sorted(found.ways):
             for way in self.layer.led[leg].others:
-                other = self.layer.led_by(legs, {**best.ways, leg: way})
-                if other is None or (price := cost(other.laid)) >= least * (1 - LEAST_GAIN):
+                other = self.layer.led_by(legs, {**best.route.ways, leg: way})
+                if other is None:
                     continue
-                best, least = other, price
-        return best
+                tried.append(self._priced(other))
+                if tried[-1].cost < best.cost * (1 - LEAST_GAIN):
+                    best = tried[-1]
+        tried.sort(key=attrgetter("cost"))
+        return [one for one in tried if one.cost <= NEARLY * best.cost][:MOST_FINISHED]
 
-    def _with_fewer_corners(self, legs: RouteLegs, found: LedRoute) -> LedRoute:
+    def _with_fewer_corners(self, legs: RouteLegs, found: PricedRoute) -> PricedRoute:
         """A route with fewer corners of its legs, as long as the whole of it gets cheaper by that.
 
         Which corners cost time alone, from rest to rest, was tried before; between its neighbours a
@@ -123,15 +150,17 @@ class CheapestRoute:
         """
         if len(legs.inner) == 1 or self.layer.problem.objective == "length":
             return found
-        cost = cost_of(self.layer.problem)
-        best, least, tried = found, cost(found.laid), 0
-        for leg in sorted(found.ways):
-            others = self._fewer_of(leg, best)
+        best, tried = found, 0
+        for leg in sorted(found.route.ways):
+            others = self._fewer_of(leg, best.route)
             while tried < MOST_FEWER and (way := next(others, None)) is not None:
                 tried += 1
-                other = self.layer.led_by(legs, {**best.ways, leg: way})
-                if other is not None and (price := cost(other.laid)) < least * (1 - LEAST_GAIN):
-                    best, least, others = other, price, self._fewer_of(leg, other)
+                other = self.layer.led_by(legs, {**best.route.ways, leg: way})
+                if other is None:
+                    continue
+                priced = self._priced(other)
+                if priced.cost < best.cost * (1 - LEAST_GAIN):
+                    best, others = priced, self._fewer_of(leg, other)
         return best
 
     def _fewer_of(self, leg: int, route: LedRoute) -> Iterator[LedWay]:
@@ -141,25 +170,22 @@ class CheapestRoute:
         for fewer in with_fewer(points, self.layer.radius):
             yield way._replace(inner=fewer[1:-1])
 
-    def _laid_sooner(self, found: LedRoute) -> LedRoute:
+    def _laid_sooner(self, found: PricedRoute) -> PricedRoute:
         """A route with closer turns, or legs that aren't the spline any more, if that is sooner.
 
         See ``changes``; where the length counts turns are close already.
         """
         close = ROOMY * least_radius(self.layer.problem)
-        others = list(changes(found.legs, self.layer.radius, close))
-        if not others:
-            return found
         gain = LEAST_GAIN if self.layer.problem.objective == "time" else LEAST_SHORTER
-        cost = cost_of(self.layer.problem)
-        best, least = found, cost(found.laid)
-        for change in others:
+        best = found
+        for change in list(changes(found.route.legs, self.layer.radius, close)):
             try:
-                other = self.layer.laid_anew(change(best.legs), best)
+                other = self.layer.laid_anew(change(best.route.legs), best.route)
             except StuckLegError:
                 continue
-            if (price := cost(other.laid)) < least * (1 - gain):
-                best, least = other, price
+            priced = self._priced(other)
+            if priced.cost < best.cost * (1 - gain):
+                best = priced
         return best
 
 
