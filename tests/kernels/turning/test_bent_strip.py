@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from viaspline.kernels.turning.bent_strip import SHARP_PRICE, bent_strip
+from viaspline.kernels.turning.settled_strip import MOST_TURNED
 
 Floats = NDArray[np.float64]
 COUNT = 25
@@ -115,3 +116,24 @@ def _moved_to_rest(
         )
         heights = heights + moved
     return heights
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_places_that_are_moved_no_more_than_is_told_keep_their_order(seed: int) -> None:
+    """On the inside of a bend they come together: beyond its middle they would lie in disorder."""
+    random = np.random.default_rng((4, seed))
+    radius, half = random.uniform(0.5, 1.5), random.uniform(0.9, 1.9)
+    around = np.arange(-half, half, 0.2)
+    arc = radius * np.column_stack((np.sin(around), np.cos(around)))
+    legs = 2.0 * np.arange(1, 9)[:, None] * (np.cos(half), -np.sin(half))
+    places = np.concatenate(((arc[0] + legs * (-1, 1))[::-1], arc, arc[-1] + legs))
+    along = np.gradient(places, axis=0)
+    normals = np.column_stack((-along[:, 1], along[:, 0])) / np.hypot(*along.T)[:, None]
+    fixed, far = np.zeros(len(places), np.bool_), np.full(len(places), 20.0)
+    fixed[[0, -1]] = True
+    moved, _, told = bent_strip(places, normals, -far, far, fixed, False, 0.16, np.inf)
+    moved *= MOST_TURNED / told
+    steps, now = np.diff(places, axis=0), np.diff(places + moved[:, None] * normals, axis=0)
+    kept = (steps * now).sum(axis=1) / (steps * steps).sum(axis=1)
+    assert np.abs(moved).max() > 0.3 * radius
+    assert kept.min() >= 0.5 - 1e-9

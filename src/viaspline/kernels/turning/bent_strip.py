@@ -22,6 +22,7 @@ TO_BOUND = 0.95  # of the way to the first bound that is met
 SETTLED = 1e-5  # product of slack and price over the cost of a place
 FIRST_PRODUCT = 0.1  # the same, at first
 LEAST_SLACK = 1e-3  # of the room between bounds, at first
+SHORTENED = 0.6  # of a turn [rad] that a step counts for by which it is shortened, as a share of it
 SHARP_PRICE = (
     3.0  # of bending, for each time that the square of a curvature is beyond what is sharp
 )
@@ -258,12 +259,19 @@ def _is_free(
 
 
 @uncounted
-def _most_turned(places: Floats, moved: Floats) -> float:
-    """By how much a step is turned at most [rad]."""
+def _most_turned(places: Floats, normals: Floats, moved: Floats) -> float:
+    """By how much a step is turned at most [rad], or as much as it is shortened.
+
+    On the inside of a bend places come nearer to each other, the farther they move: beyond its
+    middle they would have changed their order.
+    """
     turned = 0.0
     for j in range(moved.size - 1):
         dx, dy = places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
-        turned = max(turned, abs(moved[j + 1] - moved[j]) / math.hypot(dx, dy))
+        long = math.hypot(dx, dy)
+        along = moved[j] * (normals[j, 0] * dx + normals[j, 1] * dy)
+        along -= moved[j + 1] * (normals[j + 1, 0] * dx + normals[j + 1, 1] * dy)
+        turned = max(turned, abs(moved[j + 1] - moved[j]) / long, SHORTENED * along / (long * long))
     return turned
 
 
@@ -297,7 +305,7 @@ def bent_strip(
     product = FIRST_PRODUCT * max(bending, 1e-12) / count
     least = SETTLED * product
     if _is_free(bands, slopes, fixed, seam, lower, upper, moved, more, across, work):
-        return moved, low, _most_turned(places, moved)
+        return moved, low, _most_turned(places, normals, moved)
     for j in range(count):
         if not fixed[j]:
             slack = LEAST_SLACK * (upper[j] - lower[j])
@@ -337,4 +345,4 @@ def bent_strip(
         product = max(worst, least)
         if worst <= least:
             break
-    return moved, low - high, _most_turned(places, moved)
+    return moved, low - high, _most_turned(places, normals, moved)
