@@ -17,6 +17,7 @@ from viaspline.machine.trial_drive import follow, trackings
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planner import plan
+from viaspline.trajectory.limits import Station
 from viaspline.trajectory.retime import retime
 
 
@@ -45,6 +46,16 @@ def test_trial_drives_are_driven_once_whatever_is_asked_of_them(
     assert not driven
     assert trials.largest_deviation < trials.allowance
     assert len(driven) == 1
+
+
+def test_a_stay_of_months_costs_no_more_than_one_of_minutes(robot_of: Any, bends: Any) -> None:
+    robot = robot_of("differential")
+    half = 0.5 * bends.length
+    months, minutes = (
+        allowance(bends, retime(bends, limits_of(robot), [Station(half, stay)]), robot)
+        for stay in (1e7, 600.0)
+    )
+    assert months == pytest.approx(minutes, abs=1e-6)
 
 
 @pytest.mark.parametrize("kind", ["differential", "skid-steer", "ackermann"])

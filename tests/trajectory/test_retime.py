@@ -306,6 +306,9 @@ def test_a_longer_wait_at_a_rest_delays_all_that_comes_after_it(max_jerk: float 
         assert later.time_at(place) == pytest.approx(law.time_at(place) + late)
     assert len(later.times) == len(law.times) + 1  # it stays at 12 m anyway, and now at its start
     assert later.duration == pytest.approx(law.duration + 9.0)
+    shorter = later.staying_at_most(4.0)
+    assert shorter.duration == pytest.approx(law.duration + 5.0)
+    assert shorter.staying_at_most(4.0) is shorter
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,9 @@ STEADY_ERROR_MARGIN, UNEVEN_STEADY_ERROR_MARGIN = 1.5, 2.0
 RESERVE_SLACK = 0.01
 """By which a path that was laid to leave enough steering may leave less, for its rounding."""
 
+TRIAL_STAY_S = 600.0
+"""A trial drive stays nowhere for longer: who stands gets no farther beside its path [s]."""
+
 SLALOM_BENDS = 6
 """Of the slalom that stands for paths that are laid under way."""
 
@@ -126,9 +129,10 @@ class TrialDrives:
 
     def _drives(self) -> Iterable[tuple[Tracking, bool]]:
         """What each is off from the path, and whether it came to its end."""
+        law = self.trajectory.staying_at_most(TRIAL_STAY_S)
         if is_random(self.robot):
-            return trackings(self.path, self.trajectory, self.robot, TRIAL_SEEDS)
-        track = follow(self.path, self.trajectory, self.robot)
+            return trackings(self.path, law, self.robot, TRIAL_SEEDS)
+        track = follow(self.path, law, self.robot)
         return [(track.tracking, track.finished)]
 
     @property

@@ -157,6 +157,14 @@ class Trajectory(ShownValue, ComparedByValue):
             jerks=None if self.jerks is None else none_between(self.jerks),
         )
 
+    def staying_at_most(self, seconds: float) -> Trajectory:
+        """The time law with no stay longer than this [s]; itself, if it has none."""
+        lasts = np.diff(self.times)
+        spared = np.where(np.diff(self.distances) == 0.0, np.maximum(lasts - seconds, 0.0), 0.0)
+        if not spared.any():
+            return self
+        return replace(self, times=self.times - np.concatenate(([0.0], np.cumsum(spared))))
+
     def until(self, distance: float) -> Trajectory:
         """The time law as far as the first rest at a distance along the path [m] or beyond it."""
         rests = np.flatnonzero((self.speeds == 0.0) & (self.distances >= distance))

@@ -10,6 +10,7 @@ from viaspline.errors import GaveUpError
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.method import Found, GaveUp, Refusal
 from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.trajectory.limits import Station
 from viaspline.trajectory.yielding import no_law
 from viaspline.trajectory.yielding.law_among import law_among
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -105,3 +106,10 @@ def test_what_never_comes_near_the_goal_keeps_nobody_from_saying_how_long_it_is_
     }
     with pytest.raises(GaveUpError, match="'near' first: hold 5 s at most"):
         vs.plan(vs.Mission.model_validate(mission))
+
+
+def test_who_stays_for_days_where_something_comes_by_is_given_up_on_soon() -> None:
+    moving = MovingObstacles([parked(20.0, [[0, 0, 9], [5, 0, -9], [10, 0, 9]], "loop")])
+    stay = [Station(20.0, dwell=1e6)]
+    outcome = law_among(line(), LIMITS, stay, moving=moving, required=0.5)
+    assert isinstance(outcome, GaveUp)

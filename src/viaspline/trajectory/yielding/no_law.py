@@ -36,6 +36,9 @@ WATCHED_S, WATCHED_SHARE = 120.0, 3.0
 """For how long is looked at what moves, and how many times the static law [s]."""
 MAX_WATCHED_S = 600.0
 """What moves for longer counts as moving for ever [s]."""
+MOST_STEPS = 2_000_000
+"""So many steps are gone at most: where a robot stays for days no proof is sought to their end."""
+
 PROOF_S = 0.2
 """A proof may spend as much, whatever the search has left of its budget [s]."""
 MAX_DELAY_S = 300.0
@@ -101,7 +104,7 @@ class Unserved:
     def is_proven(self) -> bool:
         """Whether there is no law for a robot without inertia either."""
         reached, _, step = self._reached
-        is_cut = reached.step < self._steps(step)
+        is_cut = reached.step < self._steps(step) and reached.last_alive >= reached.step - 1
         goes_on = self._is_alive and self._still() == math.inf
         return not (is_cut or reached.can_arrive or goes_on)
 
@@ -140,7 +143,7 @@ class Unserved:
         count = max(math.ceil(length / pitch), 1)
         pitch = length / count
         step = AHEAD * pitch / float(static.speeds.max())
-        times = static.start_time + step * np.arange(self._steps(step))
+        times = static.start_time + step * np.arange(min(self._steps(step), MOST_STEPS))
         first = float(static.speeds[0])
         braking = np.minimum(times - times[0], first / course.limits.brake)
         behind = course.stage.start + (first - 0.5 * course.limits.brake * braking) * braking
