@@ -16,6 +16,8 @@ from viaspline.robot.simulation.exact_run import run_of_exact
 from viaspline.robot.simulation.machine_drive import drive_machine
 from viaspline.robot.simulation.machine_run import run_of_machine
 from viaspline.robot.simulation.pace import Pace, by_work
+from viaspline.robot.simulation.sensors import senses_of
+from viaspline.robot.simulation.standing_budget import check_standing_time
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.world.world import World
 
@@ -58,6 +60,9 @@ def simulate(
     limits and its noise: then ``Run.path`` is the way that it really took, its certificate that of
     the driven body, and ``Run.tracking`` what it was off.
 
+    Where a robot that follows exactly stands for more than a minute and a half, and nothing that
+    moves is near, the time is stepped over, and ``Run.times`` has few moments of it.
+
     The same mission gives the same run, bit by bit. A drive takes at most ten times its planned
     duration and ten minutes; then it is broken off, with that as its reason.
 
@@ -78,7 +83,8 @@ def simulate(
     Raises:
         MissionError: When a file can't be read, or has faults.
         PlanningError: When there is no path at all, or none was found.
-        GaveUpError: When a budget ran out before that was known.
+        GaveUpError: When a budget ran out before that was known, or the robot would stand for more
+            than half a day in all and that can't be stepped over.
         GeometryError: When the step is not above 0, the sensor sees no farther than the robot's
             body, or a robot with a drive is sent on a route with heights.
 
@@ -104,6 +110,7 @@ def simulate(
         check_callable("progress", progress, "give a function of a time and two lengths")
     nav = Navigator(mission, plan, reaction=longest_step(step), period=step, warm=False)
     world = World.everything(nav.mission)
+    check_standing_time(nav, senses_of(nav.mission, world, seed))
     limit = MAX_DURATION_RATIO * nav.plan.trajectory.duration + MAX_DELAY_S
     limit += nav.mission.route.depart_s
 

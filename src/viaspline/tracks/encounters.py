@@ -14,6 +14,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.tracks.calm_moments import Stretches, spread_moments
 from viaspline.tracks.encountered import Contact, Encounters, Pass
 
 RESOLUTION_S = 1e-3
@@ -63,11 +64,19 @@ class DrivenStates:
         begin: When it set off [s].
         end: When it arrived, or was stopped [s].
         state_at: Its places [m], (n, d), and its speeds [m/s], (n,), at times [s], (n,).
+        calm: When it stands, nothing touches it and nothing is nearer than at another time in
+            which it stands there; it needn't be looked at closely then.
     """
 
     begin: float
     end: float
     state_at: Callable[[Floats], tuple[Floats, Floats]]
+    calm: Stretches = ()
+
+    def moments(self, apart: float) -> Floats:
+        """Moments of the drive, no farther apart than so long where it isn't calm [s]."""
+        count = max(math.ceil((self.end - self.begin) / apart), 1)
+        return spread_moments(self.begin, self.end, count, self.calm)
 
 
 def encounters(
@@ -90,11 +99,10 @@ def encounters(
     """
     if not len(moving):
         return Encounters(math.inf, None, None, ())
-    count = max(math.ceil((motion.end - motion.begin) / RESOLUTION_S), 1)
-    times = np.linspace(motion.begin, motion.end, count + 1)
-    step = float(times[1] - times[0])
-    gaps, nearest, speeds = np.empty(count + 1), np.empty(count + 1, np.int64), np.empty(count + 1)
-    for first in range(0, count + 1, AT_ONCE):
+    times = motion.moments(RESOLUTION_S)
+    count, step = len(times), float(times[1] - times[0])
+    gaps, nearest, speeds = np.empty(count), np.empty(count, np.int64), np.empty(count)
+    for first in range(0, count, AT_ONCE):
         part = slice(first, first + AT_ONCE)
         places, speeds[part] = motion.state_at(times[part])
         gaps[part], nearest[part] = moving.nearest(places, times[part])
@@ -146,8 +154,7 @@ def _passes(
 
     Of each it is looked less often how near it was, which proves less.
     """
-    count = max(math.ceil((motion.end - motion.begin) / PASSING_RESOLUTION_S), 1)
-    times = np.linspace(motion.begin, motion.end, count + 1)
+    times = motion.moments(PASSING_RESOLUTION_S)
     places, speeds = motion.state_at(times)
     near = robot.max_speed_mps**2 / (2.0 * (robot.max_brake_mps2 or robot.max_accel_mps2))
     half = 0.5 * float(times[1] - times[0])

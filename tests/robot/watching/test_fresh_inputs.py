@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from viaspline.mission.model import Mission
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import LidarSensor, Scan
 from viaspline.robot.state import RobotState
@@ -192,3 +193,22 @@ def test_a_stamp_far_ahead_tells_no_age(slalom_of: Any, discs: Any, what: str) -
     assert told[0].data["age_s"] == pytest.approx(-1.8e9)
     assert speeds[29] == 0.0
     assert speeds[39] > 0.0
+
+
+def test_who_stood_meanwhile_was_not_blind() -> None:
+    away = {"from": [0, 90], "velocity_mps": [0, 1]}
+    mission = Mission.model_validate(
+        {
+            "world": {"known": [{"circle": {"center": [0, 0], "radius": 1}, "motion": away}]},
+            "robot": {"sensor": {"lidar": {"range_m": 8}}},
+            "route": {"start": [0, 0], "goal": [20, 0], "depart_s": 60},
+        }
+    )
+    assert mission.robot.sensor is not None
+    assert mission.robot.sensor.lidar is not None
+    lidar, nav, told = LidarSensor([], mission.robot.sensor.lidar), Navigator(mission), []
+    for time in (0.0, 0.05, 50.0, 60.0, 62.0):
+        state = nav.reference(time)
+        _, nav = nav.step(state, lidar.scan(state.position, state.heading), time)
+        told += [event.time for event in nav.events if event.kind == "stale"]
+    assert told == [62.0]

@@ -39,7 +39,10 @@ class DrivenMotion:
     @property
     def looks(self) -> NDArray[np.int64]:
         """At which moments the sensor looks, in order."""
-        ticks = self.step * np.arange(np.floor(self.times[-1] / self.step + 1e-9) + 1.0)
+        within = np.floor(self.times / self.step)
+        within = within[np.diff(within, prepend=-1.0) > 0.0]
+        ticks = np.unique(np.concatenate((within, within + 1.0)))
+        ticks = self.step * ticks[ticks <= np.floor(self.times[-1] / self.step + 1e-9)]
         return np.unique(np.searchsorted(self.times, ticks - 1e-9).clip(max=len(self.times) - 1))
 
     def with_turns(self) -> DrivenMotion:

@@ -19,6 +19,7 @@ from viaspline.robot.simulation.driven_step import DrivenStep, StepWatcher, unwa
 from viaspline.robot.simulation.machine_drive import Tell
 from viaspline.robot.simulation.pace import Pace, by_work, seconds_from, steps_taken
 from viaspline.robot.simulation.sensors import senses_of
+from viaspline.robot.simulation.stepped_over import Stood, steps_over, stood_on
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
@@ -76,6 +77,7 @@ def drive_exactly(
     sensor = senses.standing
     book, last = Logbook(), None
     trajectories: list[tuple[float, Trajectory]] = []
+    stood: Stood | None = None
     known: frozenset[Obstacle] = frozenset()
     tick = 0
     touched = _contact(nav, world, np.zeros(1))
@@ -103,6 +105,9 @@ def drive_exactly(
         skipped = max(skipped, steps_taken(seconds_from(pace, nav), step))
         touched = _contact(nav, world, step * np.arange(tick, tick + skipped + 1, dtype=float))
         tick += skipped
+        if touched is None:
+            stood = stood_on(stood, nav, senses, tick * step)
+            tick += steps_over(stood, nav, tick, step)
     return ExactDrive(nav, book, tuple(trajectories), tick, touched.time, touched, None)
 
 

@@ -18,6 +18,8 @@ from viaspline.robot.simulation.exact_drive import ExactDrive
 from viaspline.robot.simulation.machine_run import proven
 from viaspline.robot.simulation.near_misses import near_misses
 from viaspline.robot.simulation.outcome import outcome
+from viaspline.robot.simulation.standstills import calm_at, standstills
+from viaspline.tracks.calm_moments import Stretches, kept_moments, spread_moments
 from viaspline.tracks.encounters import DrivenStates, encounters, touched_by
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -41,18 +43,20 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
     nav = drive.nav
     reason, events, visits = outcome(nav, drive.book, drive.end, drive.touched, drive.overdue)
     moving = MovingObstacles.everything(nav.mission)
-    times = _sample_times(drive, step, events)
+    whole = drive.book.path(nav)
+    calm = _calm(drive, whole, moving)
+    times = _sample_times(drive, step, events, calm)
     distances, speeds = _along(drive.trajectories, times)
-    path = driven_part(drive.book.path(nav), float(distances[-1]))
+    path = driven_part(whole, float(distances[-1]))
     u = np.asarray(path.parameter(np.minimum(distances, path.length)))
     robot = nav.mission.robot
     certificate = proven(path, world, robot)
-    motion = _motion(drive, path, step)
+    motion = _motion(drive, path, step, calm)
     near = () if certificate.holds else near_misses(nav.mission, world, motion)
     met = None
     if len(moving):
         appearance = Appearance(nav.mission, world, moving, motion)
-        states = _states(drive, path)
+        states = _states(drive, path, calm)
         radius, movers = movers_about(robot, moving, motion)
         met = encounters(states, robot, radius, movers, appearance.was_late)
         events = with_contacts(events, met, states)
@@ -81,7 +85,18 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
     )
 
 
-def _states(drive: ExactDrive, path: Path) -> DrivenStates:
+def _calm(drive: ExactDrive, path: Path, moving: MovingObstacles) -> Stretches:
+    """When the robot stood for long, and nothing that moves mattered."""
+    robot = drive.nav.mission.robot
+    calm: list[tuple[float, float]] = []
+    for standstill in standstills(drive.trajectories, drive.end):
+        u = np.asarray(path.parameter(min(standstill.distance, path.length)))
+        place, heading = np.asarray(path.evaluate(u)), float(path.heading(u))
+        calm += calm_at(standstill, robot, moving, place, heading)
+    return calm
+
+
+def _states(drive: ExactDrive, path: Path, calm: Stretches) -> DrivenStates:
     """Where the robot was when."""
 
     def state_at(times: Floats) -> tuple[Floats, Floats]:
@@ -89,22 +104,24 @@ def _states(drive: ExactDrive, path: Path) -> DrivenStates:
         places = np.asarray(path.at_distance(np.minimum(distances, path.length)))
         return places[:, :2], speeds
 
-    return DrivenStates(0.0, drive.end, state_at)
+    return DrivenStates(0.0, drive.end, state_at, calm)
 
 
-def _motion(drive: ExactDrive, path: Path, step: float) -> DrivenMotion:
+def _motion(drive: ExactDrive, path: Path, step: float, calm: Stretches) -> DrivenMotion:
     """What was driven, moment by moment."""
     count = max(round(MOMENTS * drive.end / step), 1)
-    times = np.linspace(0.0, drive.end, count + 1)
+    times = spread_moments(0.0, drive.end, count, calm)
     distances, speeds = _along(drive.trajectories, times)
     u = np.asarray(path.parameter(np.minimum(distances, path.length)))
     places, headings = np.asarray(path.evaluate(u))[:, :2], np.asarray(path.heading(u))
     return DrivenMotion(times, places, headings, speeds, distances, step).with_turns()
 
 
-def _sample_times(drive: ExactDrive, step: float, events: tuple[Event, ...]) -> Floats:
-    """Every step and every event, up to the end."""
-    ticks = step * np.arange(drive.ticks + 1)
+def _sample_times(
+    drive: ExactDrive, step: float, events: tuple[Event, ...], calm: Stretches
+) -> Floats:
+    """Every step, but few where it is calm, and every event, up to the end."""
+    ticks = step * kept_moments(drive.ticks, step, calm)
     times = np.concatenate((ticks, [event.time for event in events], [drive.end]))
     return np.unique(times[times <= drive.end])
 

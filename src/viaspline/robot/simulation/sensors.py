@@ -31,6 +31,19 @@ class Senses:
     standing: RangeSensor | None = None
     moving: MotionSensor | None = None
 
+    @property
+    def all_moving(self) -> MovingObstacles:
+        """All that moves and could be shown."""
+        shows = self.moving if self.lidar is None else self.lidar
+        return MovingObstacles() if shows is None else shows.moving
+
+    @property
+    def reach(self) -> float:
+        """How far off what moves is shown [m]; 0: it isn't."""
+        if self.lidar is not None:
+            return self.lidar.spec.range_m
+        return 0.0 if self.moving is None else self.moving.range
+
     def at(
         self, place: tuple[float, ...], heading: float, tick: int, time: float
     ) -> Sequence[Obstacle | MovingSighting] | Scan:

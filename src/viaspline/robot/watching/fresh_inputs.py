@@ -11,6 +11,8 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from viaspline.kernels.tracking import control_law
 from viaspline.kernels.tracking.drive_motion import ACROSS, ALONG, HEADING, X, Y, predict
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -81,7 +83,8 @@ def fresh_inputs(
     late = time - watch.time
     follows_exactly = task.model is None and not _has_lidar(task)
     if not follows_exactly and math.isfinite(late):
-        ages["step"] = late
+        is_blind = late > limit and _meant_to_move(schedule, watch.time, time)
+        ages["step"] = late if is_blind else min(late, limit)
     place, events = schedule.place(progress.distance), []
     slip = ROUNDING_S * (1.0 + abs(time))
     for what, age in ages.items():
@@ -111,6 +114,12 @@ WORDS = {
 }
 
 AHEAD = "stops: the stamp of its {2} is {0:.2f} s ahead of its clock, {1:.2f} s are allowed"
+
+
+def _meant_to_move(schedule: Schedule, since: float, time: float) -> bool:
+    """Whether a robot was to drive between two times [s]: one that stands is never blind."""
+    before, now = schedule.trajectory.distance_at(np.array([since, time])).tolist()
+    return bool(before != now)
 
 
 def _has_lidar(task: DriveTask) -> bool:
