@@ -58,6 +58,12 @@ def test_a_stay_of_months_costs_no_more_than_one_of_minutes(robot_of: Any, bends
     assert months == pytest.approx(minutes, abs=1e-6)
 
 
+def test_a_robot_that_would_crawl_for_weeks_is_refused_at_once(robot_of: Any, bends: Any) -> None:
+    robot = robot_of("differential").model_copy(update={"max_yaw_rate_degps": 1e-4})
+    with pytest.raises(GeometryError, match="raise the limits"):
+        allowance(bends, retime(bends, limits_of(robot)), robot)
+
+
 @pytest.mark.parametrize("kind", ["differential", "skid-steer", "ackermann"])
 def test_what_a_drive_seldom_does_is_kept_as_well(robot_of: Any, kind: str) -> None:
     """Few drives of a short path run past its end by much; of three trial drives none did."""

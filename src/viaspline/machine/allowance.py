@@ -40,6 +40,9 @@ RESERVE_SLACK = 0.01
 TRIAL_STAY_S = 600.0
 """A trial drive stays nowhere for longer: who stands gets no farther beside its path [s]."""
 
+MOST_TRIAL_S = 200_000.0
+"""Longer ones aren't driven: one of two days takes half a minute, and a gigabyte [s]."""
+
 SLALOM_BENDS = 6
 """Of the slalom that stands for paths that are laid under way."""
 
@@ -130,6 +133,12 @@ class TrialDrives:
     def _drives(self) -> Iterable[tuple[Tracking, bool]]:
         """What each is off from the path, and whether it came to its end."""
         law = self.trajectory.staying_at_most(TRIAL_STAY_S)
+        if law.duration > MOST_TRIAL_S:
+            raise GeometryError(
+                f"the robot would be {law.duration:.3g} s under way on {self.what}, and a trial "
+                f"drive takes {MOST_TRIAL_S:g} s at most; raise the limits that make it so slow, "
+                "or leave out its drive and localisation"
+            )
         if is_random(self.robot):
             return trackings(self.path, law, self.robot, TRIAL_SEEDS)
         track = follow(self.path, law, self.robot)
