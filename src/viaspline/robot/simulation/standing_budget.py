@@ -12,7 +12,7 @@ import numpy as np
 from viaspline.errors import GaveUpError
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.simulation.sensors import Senses
-from viaspline.robot.simulation.standstills import Standstill, calm_at, standstills, unseen_at
+from viaspline.robot.simulation.standstills import LongStay, calm_at, standstills, unseen_at
 from viaspline.world.moving_obstacles import MovingObstacles
 
 MOST_STOOD_S = 50_000.0
@@ -48,7 +48,7 @@ def check_standing_time(nav: Navigator, senses: Senses) -> None:
     )
 
 
-def _looked_at(nav: Navigator, senses: Senses, one: Standstill) -> tuple[float, str]:
+def _looked_at(nav: Navigator, senses: Senses, one: LongStay) -> tuple[float, str]:
     """For how long a standstill is stepped through or looked at closely [s], and why."""
     robot, path = nav.mission.robot, nav.plan.path
     if nav.controller is not None:
@@ -66,7 +66,7 @@ def _looked_at(nav: Navigator, senses: Senses, one: Standstill) -> tuple[float, 
     return one.seconds - least, "something that moves is near all the while, or again and again"
 
 
-def _named(nav: Navigator, one: Standstill) -> str:
+def _named(nav: Navigator, one: LongStay) -> str:
     """What a standstill is in the mission."""
     law = nav.plan.trajectory
     if one.begin < law.start_time:

@@ -31,7 +31,7 @@ Laws = Sequence[tuple[float, Trajectory]]
 
 
 @dataclass(frozen=True)
-class Standstill:
+class LongStay:
     """A robot stands.
 
     Attributes:
@@ -52,7 +52,7 @@ class Standstill:
     def calm(self, near: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
         """When nothing is near for long, in order.
 
-        >>> Standstill(0.0, 1000.0, 5.0).calm([(300.0, 310.0), (320.0, 350.0)])
+        >>> LongStay(0.0, 1000.0, 5.0).calm([(300.0, 310.0), (320.0, 350.0)])
         ((20.0, 280.0), (370.0, 980.0))
         """
         free, since = [], self.begin
@@ -63,7 +63,7 @@ class Standstill:
         return tuple(free)
 
 
-def standstill_at(law: Trajectory, time: float) -> Standstill | None:
+def standstill_at(law: Trajectory, time: float) -> LongStay | None:
     """Where and how long a time law stands at a time [s]; None: it doesn't, or is over."""
     if not time < law.end_time:
         return None
@@ -72,10 +72,10 @@ def standstill_at(law: Trajectory, time: float) -> Standstill | None:
     after = int(law.distances.searchsorted(distance, side="right"))
     begin = -math.inf if first == 0 else float(law.times[first])
     end = float(law.times[after - 1])
-    return Standstill(begin, end, float(distance)) if begin <= time < end else None
+    return LongStay(begin, end, float(distance)) if begin <= time < end else None
 
 
-def standstills(laws: Laws, end: float) -> tuple[Standstill, ...]:
+def standstills(laws: Laws, end: float) -> tuple[LongStay, ...]:
     """Where a robot stood for long, in order.
 
     Args:
@@ -84,22 +84,22 @@ def standstills(laws: Laws, end: float) -> tuple[Standstill, ...]:
     """
     if not laws:
         return ()
-    found: list[Standstill] = []
+    found: list[LongStay] = []
     untils = [*(begin for begin, _ in laws[1:]), end]
     for (begin, law), until in zip(laws, untils, strict=True):
         edges = np.concatenate(([-math.inf], law.times, [math.inf])).clip(begin, until)
         places = np.concatenate((law.distances[:1], law.distances, law.distances[-1:]))
         stands = (np.diff(places) == 0.0) & (np.diff(edges) > 0.0)
         for k in np.flatnonzero(stands).tolist():
-            one = Standstill(float(edges[k]), float(edges[k + 1]), float(places[k]))
+            one = LongStay(float(edges[k]), float(edges[k + 1]), float(places[k]))
             if found and found[-1].end == one.begin and found[-1].distance == one.distance:
-                one = Standstill(found.pop().begin, one.end, one.distance)
+                one = LongStay(found.pop().begin, one.end, one.distance)
             found.append(one)
     return tuple(one for one in found if one.seconds > LONG_S)
 
 
 def calm_at(
-    standstill: Standstill,
+    standstill: LongStay,
     robot: RobotSpec,
     moving: MovingObstacles,
     place: Floats,
@@ -126,7 +126,7 @@ def calm_at(
 
 
 def unseen_at(
-    standstill: Standstill, moving: MovingObstacles, place: Floats, reach: float
+    standstill: LongStay, moving: MovingObstacles, place: Floats, reach: float
 ) -> tuple[tuple[float, float], ...]:
     """When a robot that stands has nothing that moves in sight, or what has long come to rest.
 

@@ -15,7 +15,7 @@ from viaspline.robot.simulation.sensors import Senses
 from viaspline.robot.simulation.standstills import (
     EDGE_S,
     LONG_S,
-    Standstill,
+    LongStay,
     standstill_at,
     unseen_at,
 )
@@ -31,7 +31,7 @@ class Stood:
         calm: When nothing that moves is in sight.
     """
 
-    standstill: Standstill
+    standstill: LongStay
     calm: Stretches
 
 
@@ -49,12 +49,12 @@ def stood_on(before: Stood | None, nav: Navigator, senses: Senses, time: float) 
         return None
     if before is not None and _is_same(before.standstill, standstill):
         return before
-    standstill = Standstill(time, standstill.end, standstill.distance)
+    standstill = LongStay(time, standstill.end, standstill.distance)
     place = np.asarray(nav.path.at_distance(standstill.distance))[:2]
     return Stood(standstill, unseen_at(standstill, senses.all_moving, place, senses.reach))
 
 
-def _is_same(one: Standstill, other: Standstill) -> bool:
+def _is_same(one: LongStay, other: LongStay) -> bool:
     """Whether a robot goes on to stand as it did."""
     return (one.end, one.distance) == (other.end, other.distance)
 
