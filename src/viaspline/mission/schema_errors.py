@@ -16,7 +16,14 @@ from viaspline.mission.key_words import expectation, field_of, keys_at, suggesti
 from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.mission.unplaced_faults import LIMIT_DECIMALS, Path, UnplacedFault, describe, number
+from viaspline.mission.unplaced_faults import (
+    LIMIT_DECIMALS,
+    Path,
+    UnplacedFault,
+    describe,
+    is_number,
+    number,
+)
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -149,19 +156,11 @@ def _one_of(path: Path, kind: str, keys: Sequence[str], root: Model) -> Unplaced
 def _remedy(path: Path, found: Any, root: Model) -> str:
     expected = expectation(path, root)
     if isinstance(found, str) and "number" in expected:
-        if _is_number(found):
+        if is_number(found):
             return f"it should be {expected}: write {found.strip()} without quotes"
-        if len(numbers := found.split()) > 1 and all(map(_is_number, numbers)):
+        if len(numbers := found.split()) > 1 and all(map(is_number, numbers)):
             return f"it should be {expected}: write commas, [{', '.join(numbers)}]"
     return f"it should be {expected}"
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _unknown_key(path: Path, root: Model) -> UnplacedFault:

@@ -12,7 +12,13 @@ from typing import Any
 from viaspline.bounded_file import TRACK_FILE, read_text
 from viaspline.errors import MissionError
 from viaspline.mission.fields import MAX_LENGTH_M
-from viaspline.mission.unplaced_faults import MAX_REPORTED_FAULTS, Path, UnplacedFault, children
+from viaspline.mission.unplaced_faults import (
+    MAX_REPORTED_FAULTS,
+    Path,
+    UnplacedFault,
+    children,
+    is_number,
+)
 
 ROW_WORDS = "x, y, right, left"
 CSV_PATH: Path = ("route", "corridor", "csv")
@@ -62,7 +68,7 @@ def read_track(path: FilePath) -> tuple[list[list[float]], list[UnplacedFault]]:
         cells = line.replace(";", ",").replace(",", " ").split()
         row, wrong = _row(cells)
         if wrong is not None:
-            if not rows and not faults and not any(map(_is_number, cells)):
+            if not rows and not faults and not any(map(is_number, cells)):
                 continue  # the names of the columns
             faults.append(_fault(f"{path}:{number}: {wrong}", f"a row is {ROW_WORDS} in metres"))
         rows.append(row)
@@ -81,7 +87,7 @@ def _row(cells: list[str]) -> tuple[list[float], str | None]:
     if len(cells) != 4:
         return [], f"has {len(cells)} columns"
     for cell in cells:
-        if not _is_number(cell):
+        if not is_number(cell):
             return [], f"'{cell[:20]}' is not a number"
     row = [float(cell) for cell in cells]
     for name, value in zip(("x", "y", "right", "left"), row, strict=True):
@@ -90,14 +96,6 @@ def _row(cells: list[str]) -> tuple[list[float], str | None]:
         if value < 0.0 and name in ("right", "left"):
             return [], f"the width to the {name} is negative: {value:g}"
     return row, None
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
 
 
 def _fault(problem: str, remedy: str) -> UnplacedFault:

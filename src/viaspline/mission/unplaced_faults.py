@@ -172,6 +172,19 @@ def number(value: float, decimals: int = 3) -> str:
     return repr(int(rounded)) if rounded == int(rounded) else repr(rounded)
 
 
+def is_number(text: str) -> bool:
+    """Whether a text is a number.
+
+    >>> is_number("30.5"), is_number("30.5 6")
+    (True, False)
+    """
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 def describe(value: Any) -> str:
     """What was found, in a few words.
 
