@@ -16,7 +16,6 @@ from viaspline.robot.simulation.exact_run import run_of_exact
 from viaspline.robot.simulation.machine_drive import drive_machine
 from viaspline.robot.simulation.machine_run import run_of_machine
 from viaspline.robot.simulation.pace import Pace, by_work
-from viaspline.robot.simulation.sensors import senses_of
 from viaspline.robot.simulation.standing_budget import check_standing_time
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.world.world import World
@@ -110,7 +109,7 @@ def simulate(
         check_callable("progress", progress, "give a function of a time and two lengths")
     nav = Navigator(mission, plan, reaction=longest_step(step), period=step, warm=False)
     world = World.everything(nav.mission)
-    check_standing_time(nav, senses_of(nav.mission, world, seed))
+    check_standing_time(nav, world, seed)
     limit = MAX_DURATION_RATIO * nav.plan.trajectory.duration + MAX_DELAY_S
     limit += nav.mission.route.depart_s
 

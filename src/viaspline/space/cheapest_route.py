@@ -76,29 +76,30 @@ class CheapestRoute:
             StuckLegError: When a leg can't be laid.
         """
         try:
-            best = self.layer.lay(legs, {})
+            laid = self.layer.lay(legs, {})
         except StuckLegError:  # what was free alone isn't with its neighbours
             return [replace(self.layer, take=attrgetter("taut")).lay(legs, {})]
+        if not laid.ways:  # a spline that is clear
+            return [laid]
+        best = self._priced(laid)
         differ = [
             leg
-            for leg in sorted(best.ways)
+            for leg in sorted(laid.ways)
             if self.layer.led[leg].taut is not self.layer.led[leg].sooner
         ]
         if differ:
             best = self._by_other_ways(legs, best, differ)
-        if not best.ways:  # a spline that is clear
-            return [best]
         finished = [
             self._laid_sooner(self._with_fewer_corners(legs, one))
             for one in self._best_together(legs, best)
         ]
         together = min(finished, key=attrgetter("cost")).route
-        return [best] if together is best else [together, best]
+        return [together] if together is best.route else [together, best.route]
 
     def _priced(self, route: LedRoute) -> PricedRoute:
         return PricedRoute(cost_of(self.layer.problem)(route.laid), route)
 
-    def _by_other_ways(self, legs: RouteLegs, best: LedRoute, differ: list[int]) -> LedRoute:
+    def _by_other_ways(self, legs: RouteLegs, best: PricedRoute, differ: list[int]) -> PricedRoute:
         """A route with all corners of some of its legs, where that makes the whole of it cheaper.
 
         Args:
@@ -106,31 +107,29 @@ class CheapestRoute:
             best: The route, each leg by those of its corners with which it is the best alone.
             differ: Which legs have others.
         """
-        cost = cost_of(self.layer.problem)
-        least, taut = cost(best.laid), frozenset[int]()
+        taut = frozenset[int]()
         for which in _others(differ):
             tried = taut ^ which
             ways = {
                 leg: self.layer.led[leg].taut if leg in tried else self.layer.led[leg].sooner
-                for leg in best.ways
+                for leg in best.route.ways
             }
             other = self.layer.led_by(legs, ways)
-            if other is not None and (price := cost(other.laid)) < least:
-                best, least, taut = other, price, tried
+            if other is not None and (priced := self._priced(other)).cost < best.cost:
+                best, taut = priced, tried
         return best
 
-    def _best_together(self, legs: RouteLegs, found: LedRoute) -> Sequence[PricedRoute]:
+    def _best_together(self, legs: RouteLegs, found: PricedRoute) -> Sequence[PricedRoute]:
         """Routes with other ways of their legs that are nearly the cheapest, the cheapest first.
 
         Legs are led otherwise one after the other, as long as it gets cheaper. What is gained by
         fewer corners and closer turns afterwards is more than what such routes differ by. One leg
         that is all of the route is weighed alone.
         """
-        best = self._priced(found)
-        if len(legs.inner) == 1 or len(found.ways) > MOST_LEGS:
-            return [best]
-        tried = [best]
-        for leg in sorted(found.ways):
+        if len(legs.inner) == 1 or len(found.route.ways) > MOST_LEGS:
+            return [found]
+        best, tried = found, [found]
+        for leg in sorted(found.route.ways):
             for way in self.layer.led[leg].others:
                 other = self.layer.led_by(legs, {**best.route.ways, leg: way})
                 if other is None:
@@ -178,7 +177,7 @@ class CheapestRoute:
         close = ROOMY * least_radius(self.layer.problem)
         gain = LEAST_GAIN if self.layer.problem.objective == "time" else LEAST_SHORTER
         best = found
-        for change in list(changes(found.route.legs, self.layer.radius, close)):
+        for change in changes(found.route.legs, self.layer.radius, close):
             try:
                 other = self.layer.laid_anew(change(best.route.legs), best.route)
             except StuckLegError:

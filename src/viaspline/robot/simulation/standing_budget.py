@@ -11,29 +11,33 @@ import numpy as np
 
 from viaspline.errors import GaveUpError
 from viaspline.robot.navigator import Navigator
-from viaspline.robot.simulation.sensors import Senses
+from viaspline.robot.simulation.sensors import Senses, senses_of
 from viaspline.robot.simulation.standstills import LongStay, calm_at, standstills, unseen_at
 from viaspline.world.moving_obstacles import MovingObstacles
+from viaspline.world.world import World
 
 MOST_STOOD_S = 50_000.0
 """For which it is stepped through at most, by all standstills together [s]: a million steps by
 the usual one, with two gigabytes of what is kept of them."""
 
 
-def check_standing_time(nav: Navigator, senses: Senses) -> None:
+def check_standing_time(nav: Navigator, world: World, seed: int) -> None:
     """See that the standstills of a plan can be simulated.
 
     Args:
         nav: At the start.
-        senses: What the robot will be shown.
+        world: What stands there, seen or not.
+        seed: Of what its sensors measure.
 
     Raises:
         GaveUpError: They would take too long, and too much memory.
     """
     law = nav.plan.trajectory
-    found = [
-        (one, *_looked_at(nav, senses, one)) for one in standstills(((0.0, law),), law.end_time)
-    ]
+    stays = standstills(((0.0, law),), law.end_time)
+    if math.fsum(one.seconds for one in stays) <= MOST_STOOD_S:  # whatever is stepped over
+        return
+    senses = senses_of(nav.mission, world, seed)
+    found = [(one, *_looked_at(nav, senses, one)) for one in stays]
     total = math.fsum(seconds for _, seconds, _ in found)
     if total <= MOST_STOOD_S:
         return

@@ -32,7 +32,7 @@ Laws = Sequence[tuple[float, Trajectory]]
 
 @dataclass(frozen=True)
 class LongStay:
-    """A robot stands.
+    """A robot stands, for long or until it is known for how long.
 
     Attributes:
         begin: Since when [s].
