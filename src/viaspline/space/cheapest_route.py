@@ -1,7 +1,4 @@
-"""The route that is cheapest as a whole, by other ways of its legs or fewer corners of these.
-
-Tested through ``space/test_solve_route`` and ``space/test_plan_spatial``.
-"""
+"""The route that is cheapest as a whole, by other ways of its legs or fewer corners of these."""
 
 from __future__ import annotations
 
