@@ -15,7 +15,8 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.space.corner_polygon import C2, C3, STRAIGHT, side_length, turn_at
 
-SAME = 1e-9  # of a side and a metre: what is no longer is no straight piece
+SAME = 1e-9  # of a side and a metre: what is no longer is no straight piece,
+ABSORBED = 1e-3  # nor what is no longer than that of the reach beside it, which begins there then
 
 
 @kernel
@@ -34,18 +35,20 @@ def rounded_corners(points: Floats, reaches: Floats) -> Floats:
     spans = np.empty((3 * count, 4, axes))
     made = 0
     here = points[0].copy()
+    beside = 0.0
     for k in range(1, count - 1):
         turn, reach = turn_at(points, k), reaches[k - 1]
         if turn <= STRAIGHT:
             continue
         if reach <= 0.0:
             made = _straight(spans, made, here, points[k])
+            beside = 0.0
             continue
         _spirals(spans, made, points, k, reach, turn)
         gap = 0.0
         for axis in range(axes):
             gap += (spans[made, 0, axis] - here[axis]) ** 2
-        if math.sqrt(gap) > SAME * (1.0 + side_length(points, k - 1)):
+        if math.sqrt(gap) > max(SAME * (1.0 + side_length(points, k - 1)), ABSORBED * reach):
             _spirals(spans, made + 1, points, k, reach, turn)
             begins = spans[made + 1, 0].copy()
             made = _straight(spans, made, here, begins)
@@ -53,12 +56,14 @@ def rounded_corners(points: Floats, reaches: Floats) -> Floats:
             for axis in range(axes):
                 spans[made, 0, axis] = here[axis]
         made += 2
+        beside = reach
         for axis in range(axes):
             here[axis] = spans[made - 1, 3, axis]
     gap = 0.0
     for axis in range(axes):
         gap += (points[count - 1, axis] - here[axis]) ** 2
-    if math.sqrt(gap) > SAME * (1.0 + side_length(points, count - 2)) or made == 0:
+    least = max(SAME * (1.0 + side_length(points, count - 2)), ABSORBED * beside)
+    if math.sqrt(gap) > least or made == 0:
         made = _straight(spans, made, here, points[count - 1])
     else:
         for axis in range(axes):
