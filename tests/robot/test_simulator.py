@@ -12,7 +12,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.certificate import certify
-from viaspline.errors import GeometryError, MissionError, PlanningError
+from viaspline.errors import GaveUpError, GeometryError, MissionError, PlanningError
 from viaspline.mission.model import Mission
 from viaspline.planner import plan
 from viaspline.robot.logbook import Logbook
@@ -154,6 +154,15 @@ def test_a_plan_that_is_there_already_is_used(mission_of: Make) -> None:
 def test_a_step_is_above_zero(mission_of: Make, step: float) -> None:
     with pytest.raises(GeometryError, match="step is"):
         simulate(mission_of([0, 0], [9, 0]), step=step)
+
+
+def test_a_drive_of_weeks_is_refused_at_once_and_not_when_memory_is_full(mission_of: Make) -> None:
+    """A survey of 800 lanes at walking pace took 85 GB of samples."""
+    with pytest.raises(GaveUpError, match="takes 1389 h") as refused:
+        simulate(mission_of([0, 0], [1e7, 0]))
+    assert "139 h" in refused.value.remedy
+    run = simulate(mission_of([0, 0], [1e7, 0]), step=5.0)
+    assert run.reached
 
 
 def test_leaving_out_quiet_steps_changes_nothing(mission_of: Make, disc_at: Shape) -> None:

@@ -11,6 +11,7 @@ from viaspline.planner import Plan
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run
 from viaspline.robot.simulation.driven_step import StepWatcher, unwatched
+from viaspline.robot.simulation.driving_budget import check_driving_time
 from viaspline.robot.simulation.exact_drive import drive_exactly
 from viaspline.robot.simulation.exact_run import run_of_exact
 from viaspline.robot.simulation.machine_drive import drive_machine
@@ -82,8 +83,9 @@ def simulate(
     Raises:
         MissionError: When a file can't be read, or has faults.
         PlanningError: When there is no path at all, or none was found.
-        GaveUpError: When a budget ran out before that was known, or the robot would stand for more
-            than half a day in all and that can't be stepped over.
+        GaveUpError: When a budget ran out before that was known, the drive would take millions of
+            steps, or the robot would stand for more than half a day in all and that can't be
+            stepped over.
         GeometryError: When the step is not above 0, the sensor sees no farther than the robot's
             body, or a robot with a drive is sent on a route with heights.
 
@@ -119,6 +121,7 @@ def simulate(
             progress(time, nav.driven + nav.distance, length)
 
     if nav.controller is None:
+        check_driving_time(nav.plan, step)
         driven = drive_exactly(nav, world, step, seed, tell, limit, pace, watch)
         return run_of_exact(driven, world, step)
     moved = drive_machine(nav, world, step, seed, tell, limit, pace, watch)

@@ -51,10 +51,11 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
     u = np.asarray(path.parameter(np.minimum(distances, path.length)))
     robot = nav.mission.robot
     certificate = proven(path, world, robot)
-    motion = _motion(drive, path, step, calm)
-    near = () if certificate.holds else near_misses(nav.mission, world, motion)
-    met = None
-    if len(moving):
+    motion, met = None, None
+    if len(moving) or not certificate.holds:  # a long drive has very many moments
+        motion = _motion(drive, path, step, calm)
+    near = () if motion is None or certificate.holds else near_misses(nav.mission, world, motion)
+    if motion is not None and len(moving):
         appearance = Appearance(nav.mission, world, moving, motion)
         states = _states(drive, path, calm)
         radius, movers = movers_about(robot, moving, motion)
