@@ -56,3 +56,12 @@ class SplineSpec(
     ] = None
     knots: Literal["uniform", "centripetal", "chordal"] = "chordal"
     tangents: Tangents | None = None
+
+    @property
+    def has_own_tension(self) -> bool:
+        """Whether it says how taut it is to be.
+
+        >>> [SplineSpec(**said).has_own_tension for said in ({}, {"slack": 0.5}, {"tension": 0})]
+        [False, True, True]
+        """
+        return self.tension is not None or self.slack is not None

@@ -53,9 +53,7 @@ def lay_path(
     requirements.spend(LAY_S)
     kept = requirements.keeping_parts()
     asked = PathProblem.of(sequence, world, kept)
-    asked_methods = (
-        methods_for(requirements, len(sequence.vias[0].at)) if methods is None else methods
-    )
+    asked_methods = methods_for(requirements, sequence.places) if methods is None else methods
     try:
         return _laid_on_sides(asked, asked_methods)
     finally:

@@ -98,7 +98,7 @@ def _laid(
     sequence: ViaSequence, more: _Roomier, world: World, requirements: Requirements
 ) -> tuple[SplinePath, Account] | None:
     """A path that keeps more, if one is found that keeps what is required in the world as it is."""
-    methods = roomy_methods_for(requirements, len(sequence.vias[0].at))
+    methods = roomy_methods_for(requirements, sequence.places)
     try:
         spline_path, account = lay_path(sequence, more.world, more.requirements, methods)
     except PlanningError:

@@ -77,12 +77,10 @@ def summary(mission: Mission) -> list[tuple[str, str]]:
 
 
 def _stated_words(mission: Mission) -> str:
-    """That no tension is stated, and that lines and turns compete with the spline in the plane."""
+    """That no tension is stated, and that lines and turns compete with the spline then."""
     is_led = mission.route.corridor is not None and mission.route.corridor.line is not None
     if is_led or mission.spline.tension == "auto" or tension(mission) is not None:
         return ""
-    if mission.is_spatial:
-        return ", as none is stated"
     return ", as none is stated; lines and turns where they are sooner"
 
 

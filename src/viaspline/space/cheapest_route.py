@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Final, NamedTuple
@@ -11,7 +11,7 @@ import numpy as np
 
 from viaspline.space.laying.clear_route import StuckLegError
 from viaspline.space.laying.laid_route import RouteLegs
-from viaspline.space.laying.otherwise_laid import changes
+from viaspline.space.laying.otherwise_laid import Change, changes, straight_changes
 from viaspline.space.laying.sooner_corners import with_fewer
 from viaspline.space.laying.via_turns import ROOMY
 from viaspline.space.led_route import LedRoute, LedWay, RouteLayer
@@ -64,8 +64,8 @@ class CheapestRoute:
             legs: Of the route, left to the spline.
 
         Returns:
-            That, and the one whose legs are the best alone if that is another: sharp turns may be
-            laid more gently there.
+            That, the one whose clear legs are the spline's, and the one whose legs are the best
+            alone, if those are others: sharp turns may be laid more gently there.
 
         Raises:
             NoPathError: When there is no way, proven.
@@ -77,7 +77,7 @@ class CheapestRoute:
         except StuckLegError:  # what was free alone isn't with its neighbours
             return [replace(self.layer, take=attrgetter("taut")).lay(legs, {})]
         if not laid.ways:  # a spline that is clear
-            return [laid]
+            return self._and_straight(self._priced(laid))
         best = self._priced(laid)
         differ = [
             leg
@@ -90,8 +90,9 @@ class CheapestRoute:
             self._laid_sooner(self._with_fewer_corners(legs, one))
             for one in self._best_together(legs, best)
         ]
-        together = min(finished, key=attrgetter("cost")).route
-        return [together] if together is best.route else [together, best.route]
+        together = min(finished, key=attrgetter("cost"))
+        routes = self._and_straight(together)
+        return routes if together.route is best.route else [*routes, best.route]
 
     def _priced(self, route: LedRoute) -> PricedRoute:
         return PricedRoute(cost_of(self.layer.problem)(route.laid), route)
@@ -171,12 +172,40 @@ class CheapestRoute:
 
         See ``changes``; where the length counts turns are close already.
         """
-        close = ROOMY * least_radius(self.layer.problem)
         gain = LEAST_GAIN if self.layer.problem.objective == "time" else LEAST_SHORTER
+        return self._changed(found, changes(found.route.legs, self.layer.radius, self.close), gain)
+
+    def _and_straight(self, found: PricedRoute) -> Sequence[LedRoute]:
+        """A route, after one with straight ways between turns on clear legs if that is cheaper.
+
+        Where the mission says how taut the spline is to be, clear legs keep it.
+        """
+        if self.layer.problem.keeps_spline:
+            return [found.route]
+        ways = straight_changes(found.route.legs, self.layer.radius, self.close)
+        straight = self._changed(found, ways, LEAST_GAIN)
+        return [found.route] if straight is found else [straight.route, found.route]
+
+    @property
+    def close(self) -> float:
+        """Radius of turns that are as close as may be [m]."""
+        return ROOMY * least_radius(self.layer.problem)
+
+    def _changed(self, found: PricedRoute, ways: Iterable[Change], gain: float) -> PricedRoute:
+        """A route with those of some changes that make it cheaper, one after the other.
+
+        Args:
+            found: The route.
+            ways: What may be changed.
+            gain: Part of its cost that each has to gain.
+        """
         best = found
-        for change in changes(found.route.legs, self.layer.radius, close):
+        for change in ways:
+            legs = change(best.route.legs)
+            if legs.turns_as(best.route.legs):
+                continue
             try:
-                other = self.layer.laid_anew(change(best.route.legs), best.route)
+                other = self.layer.laid_anew(legs, best.route)
             except StuckLegError:
                 continue
             priced = self._priced(other)

@@ -11,9 +11,9 @@ from viaspline.mission.model import Mission
 from viaspline.mission.stated_tension import REFERENCES, best_stated, with_tension
 from viaspline.space.spatial_plan import SpatialPlan
 
-TRIED_TENSIONS: Final = (0.0, -0.5, -0.25, 0.25, 0.5, 0.75)
-"""All led legs are lines and turns, whatever the tension: few are enough for the others. The first
-is what is flown with none stated."""
+TRIED_TENSIONS: Final = (None, 0.0, -0.5, -0.25, 0.25, 0.5, 0.75)
+"""With none stated legs are lines and turns where those are sooner. All led legs are, whatever the
+tension: few are enough for the others."""
 
 
 def by_soonest_tension(mission: Mission, planned: Callable[[Mission], SpatialPlan]) -> SpatialPlan:
@@ -27,7 +27,7 @@ def by_soonest_tension(mission: Mission, planned: Callable[[Mission], SpatialPla
         planned: Plans it with a tension.
 
     Raises:
-        PlanningError: As it does with a tension of 0, if it does so with all.
+        PlanningError: As it does with none stated, if it does so with all.
     """
     plans: list[SpatialPlan] = []
     refused: PlanningError | None = None

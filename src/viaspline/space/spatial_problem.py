@@ -54,6 +54,7 @@ class SpatialProblem:
         radius: Of the body, if it is a ball; 0 if it is the world's core [m].
         limits: Of speed, acceleration, climb and turn.
         shape: Of the spline.
+        keeps_spline: Whether clear legs are the spline's: the mission says how taut it is to be.
         objective: By what the ways past an obstacle are chosen.
         facing: Which way the body faces.
         takeoff: Where the robot stands on the ground, upright below the first via point [m], (3,);
@@ -69,6 +70,7 @@ class SpatialProblem:
     radius: float
     limits: SpatialLimits
     shape: CurveShape
+    keeps_spline: bool = False
     objective: SpatialObjective = "time"
     facing: Facing = field(default_factory=FacingAlong)
     takeoff: Floats | None = None

@@ -57,6 +57,7 @@ def spatial_problem_of(mission: Mission) -> SpatialProblem:
         shape=CurveShape(
             _tensions(mission.spline, len(vias) - 1), mission.spline.knots, mission.tangents
         ),
+        keeps_spline=mission.spline.has_own_tension or mission.tangents == "cardinal",
         objective=route.optimise,
         facing=_facing(route.yaw),
         takeoff=None if places.takeoff is None else np.array(places.start),

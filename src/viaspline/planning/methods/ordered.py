@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from viaspline.kernels.arrays import Floats
 from viaspline.planning.methods.at_radii import AtRadii
 from viaspline.planning.methods.bent_gently import BentGently
 from viaspline.planning.methods.gaps_for_body import GapsForBody
@@ -19,6 +20,7 @@ from viaspline.planning.methods.rounder_turns import RounderTurns
 from viaspline.planning.methods.spline_as_is import SplineAsItIs
 from viaspline.planning.methods.spline_led_round import SplineLedRound
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
+from viaspline.planning.problem.heights import climbs_upright
 from viaspline.planning.problem.method import Method
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
@@ -27,7 +29,7 @@ from viaspline.planning.turning.driven_problem import DrivenProblem
 PathMethod = Method[DrivenProblem, SplinePath]
 
 SPLINE_METHODS: tuple[PathMethod, ...] = (SplineLedRound(),)
-"""For the paper's curve, and for one that climbs: turns are flat."""
+"""For the paper's curve, and for one that climbs nearly upright: turns are flat."""
 
 FEW_HEADINGS = JointHeadings(max_rows=200, max_pushed_rows=30, max_pushed_pairs=16, headings=16)
 NEARBY_HEADINGS = NearbyHeadings(
@@ -60,14 +62,20 @@ BODY_METHODS: tuple[PathMethod, ...] = (
 """For a robot with a turning circle or a long body."""
 
 
-def methods_for(requirements: Requirements, dimension: int) -> tuple[PathMethod, ...]:
-    """The methods that lay paths for a robot, in the plane or in space."""
-    if requirements.is_cardinal or (requirements.is_free_disc and dimension > 2):
+def methods_for(requirements: Requirements, places: Floats) -> tuple[PathMethod, ...]:
+    """The methods that lay paths for a robot.
+
+    Args:
+        requirements: What it has to keep.
+        places: Its via points [m], (v, 2) or with heights (v, 3).
+    """
+    is_disc = requirements.is_free_disc
+    if requirements.is_cardinal or (is_disc and climbs_upright(places)):
         return SPLINE_METHODS
-    return DISC_METHODS if requirements.is_free_disc else BODY_METHODS
+    return DISC_METHODS if is_disc else BODY_METHODS
 
 
-def roomy_methods_for(requirements: Requirements, dimension: int) -> tuple[PathMethod, ...]:
+def roomy_methods_for(requirements: Requirements, places: Floats) -> tuple[PathMethod, ...]:
     """The methods that lay paths that keep more than they must: where it is easily done."""
-    is_spline = methods_for(requirements, dimension) is SPLINE_METHODS
+    is_spline = methods_for(requirements, places) is SPLINE_METHODS
     return SPLINE_METHODS if is_spline else DISC_METHODS

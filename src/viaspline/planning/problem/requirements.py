@@ -192,7 +192,7 @@ class Requirements(ComparedByValue):
     @property
     def has_own_tension(self) -> bool:
         """Whether the mission says how taut the spline is to be."""
-        return self.spline.tension is not None or self.spline.slack is not None
+        return self.spline.has_own_tension
 
     @property
     def kept(self) -> float:

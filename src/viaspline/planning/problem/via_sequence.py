@@ -97,6 +97,12 @@ class ViaSequence:
     closed: bool = False
     parts_of: tuple[WholeLeg, ...] = ()
 
+    @property
+    def places(self) -> Floats:
+        """Where the via points are [m], the first once more at the end of a round, (v, d)."""
+        ends = (*self.vias, self.vias[0]) if self.closed else self.vias
+        return np.array([via.at for via in ends])
+
     def whole_leg(self, leg: int) -> WholeLeg:
         """The leg of the route that a leg is or is a part of."""
         if self.parts_of:

@@ -96,6 +96,15 @@ class RouteLegs:
             radii=(*self.radii[:leg], radii, *self.radii[leg + 1 :]),
         )
 
+    def turns_as(self, other: RouteLegs) -> bool:
+        """Whether another route has the same corners on the same legs, as gentle as these."""
+        return all(
+            (mine is None) == (its is None) and np.array_equal(radii, as_gentle)
+            for mine, its, radii, as_gentle in zip(
+                self.inner, other.inner, self.radii, other.radii, strict=True
+            )
+        )
+
     @cached_property
     def ways(self) -> Floats:
         """Directions at the via points; see ``via_directions``, (n, d)."""

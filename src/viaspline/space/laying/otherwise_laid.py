@@ -20,10 +20,11 @@ from viaspline.space.laying.laid_route import RouteLegs
 MOST_LEGS: Final = 8
 """Of so many legs at most each is tried by itself."""
 
+Change = Callable[[RouteLegs], RouteLegs]
+"""From a route to that with something of it changed."""
 
-def changes(
-    legs: RouteLegs, wide: float, close: float
-) -> Iterator[Callable[[RouteLegs], RouteLegs]]:
+
+def changes(legs: RouteLegs, wide: float, close: float) -> Iterator[Change]:
     """What may be changed of a route, one thing after the other.
 
     Closer turns on all legs that are led round something, then on each of them; then, for each that
@@ -49,10 +50,42 @@ def changes(
     for which in [led, *([leg] for leg in led if several)] if led and close < wide else []:
         yield partial(_closer, which=which, radius=close)
     beside = {leg for one in led for leg in (one - 1, one + 1)}
-    long = np.flatnonzero((legs.vias[1:] != legs.vias[:-1]).any(axis=1)).tolist()
-    for leg in sorted(beside.intersection(long).difference(led)):
-        for radius in (wide, close) if close < wide else (wide,):
-            yield partial(_straight, leg=leg, radius=radius)
+    for leg in _plain(legs):
+        if leg in beside:
+            for radius in _radii(wide, close):
+                yield partial(_straight, which=[leg], radius=radius)
+
+
+def straight_changes(legs: RouteLegs, wide: float, close: float) -> Iterator[Change]:
+    """Straight ways between turns, wide or close, not the spline: on all legs, then on each.
+
+    Args:
+        legs: Of the route.
+        wide: Radius of turns at which no speed is lost [m].
+        close: Of those that are as close as may be [m].
+
+    >>> from viaspline.space.laying.laid_route import CurveShape
+    >>> vias, free = np.array([[0.0, 0], [9, 0], [9, 9]]), np.full((3, 2), np.nan)
+    >>> legs = RouteLegs.left_to_the_spline(vias, free, CurveShape(np.zeros(2)))
+    >>> [len(change(legs).radii[0]) for change in straight_changes(legs, 4.0, 1.0)]
+    [2, 2, 2, 2, 0, 0]
+    """
+    plain = _plain(legs)
+    if len(legs.inner) == 1 or not plain:  # from end to end the spline is straight
+        return
+    for which in [plain, *([leg] for leg in plain if 1 < len(plain) <= MOST_LEGS)]:
+        for radius in _radii(wide, close):
+            yield partial(_straight, which=which, radius=radius)
+
+
+def _plain(legs: RouteLegs) -> list[int]:
+    """The legs of some length that are left to the spline."""
+    long = (legs.vias[1:] != legs.vias[:-1]).any(axis=1)
+    return [leg for leg, inner in enumerate(legs.inner) if inner is None and long[leg]]
+
+
+def _radii(wide: float, close: float) -> tuple[float, ...]:
+    return (wide, close) if close < wide else (wide,)
 
 
 def _closer(legs: RouteLegs, which: Sequence[int], radius: float) -> RouteLegs:
@@ -64,6 +97,8 @@ def _closer(legs: RouteLegs, which: Sequence[int], radius: float) -> RouteLegs:
     return legs
 
 
-def _straight(legs: RouteLegs, leg: int, radius: float) -> RouteLegs:
-    """A route one of whose legs goes straight on between its turns, of a radius [m]."""
-    return legs.led_round(leg, legs.vias[:0], radius)
+def _straight(legs: RouteLegs, which: Sequence[int], radius: float) -> RouteLegs:
+    """A route some of whose legs go straight on between their turns, of a radius [m]."""
+    for leg in which:
+        legs = legs.led_round(leg, legs.vias[:0], radius)
+    return legs

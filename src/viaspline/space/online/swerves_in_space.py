@@ -63,6 +63,7 @@ def swerves(
         return
     tension = problem.shape.tension[-len(ahead) :]
     shape = replace(problem.shape, tension=np.append(tension[0], tension))
+    swerving = replace(problem, shape=shape, keeps_spline=True)
     for share, wide in BESIDE:
         time = first + share * (last - first)
         there = one.at_any_time(time)
@@ -75,7 +76,7 @@ def swerves(
                 continue  # that would be a turn rather than a swerve
             via = SpatialVia(ASIDE, there + wide * aside, None)
             found = replan_in_space(
-                flight.known, replace(problem, shape=shape), flight.legs[-1], (via, *ahead),
+                flight.known, swerving, flight.legs[-1], (via, *ahead),
                 begins, foreseen, known,
             )  # fmt: skip
             if isinstance(found, NewLeg):
