@@ -84,3 +84,15 @@ def test_a_file_of_another_ending_is_saved_in_no_format() -> None:
 def test_a_result_is_no_mission() -> None:
     with pytest.raises(MissionError, match=r"a\.json: is a result .*; give the planned-\*\.yaml"):
         format_of(Path("a.json"), '{"mission": {}, "proven_means": "docs/proven.md"}')
+
+
+@pytest.mark.parametrize(("text", "what"), [
+    ('{"type": "FeatureCollection", "features": []}', "is GeoJSON, not a mission; areas in metres"),
+    ('<?xml version="1.0"?><kml xmlns="http://www.opengis.net/kml/2.2"/>', "is KML, not a mission"),
+    ('<gpx version="1.1"/>', "is GPX, not a mission"),
+])  # fmt: skip
+def test_a_file_of_another_kind_is_told_by_its_name_and_what_to_do_with_it(
+    text: str, what: str
+) -> None:
+    with pytest.raises(MissionError, match=what):
+        format_of(Path("swaths.geojson"), text)

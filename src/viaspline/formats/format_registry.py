@@ -26,6 +26,21 @@ FORMATS: Final = (
 """The file of each here, and its class. Fleets are YAML as well, told by their keys."""
 
 
+_ROUTE: Final = (
+    "list the points of a route under route: in a YAML of viaspline (.yaml, .yml), or plan it in "
+    "QGroundControl (.plan, QGC WPL 110)"
+)
+OTHERS: Final = (
+    ('"proven_means"', "is a result of viaspline's, not a mission",
+     "give the planned-*.yaml of its folder"),
+    ('"FeatureCollection"', "is GeoJSON, not a mission",
+     f"areas in metres are a map: world: {{known: [{{map: areas.geojson}}]}}; {_ROUTE}"),
+    ("<kml", "is KML, not a mission", _ROUTE),
+    ("<gpx", "is GPX, not a mission", _ROUTE),
+)  # fmt: skip
+"""Files that may be taken for missions: what is in them, what they are, and what to do."""
+
+
 def formats() -> Iterator[AnyFormat]:
     """All formats. Each is imported when its turn comes: YAML doesn't wait for what others need.
 
@@ -47,9 +62,10 @@ def format_of(path: Path, text: str) -> AnyFormat:
     Raises:
         MissionError: It is empty, or of no kind that is understood.
     """
-    if '"proven_means"' in text:
-        problem = "is a result of viaspline's, not a mission"
-        raise refusal(str(path), Place(""), problem, "give the planned-*.yaml of its folder")
+    is_tree = text.lstrip()[:1] in ("{", "<")
+    for within, problem, remedy in OTHERS:
+        if is_tree and within in text:
+            raise refusal(str(path), Place(""), problem, remedy)
     found = next((each for each in formats() if each.sniff(path, text)), None)
     if found is not None:
         return found
