@@ -12,7 +12,7 @@ import click
 
 MISSION: Final = click.argument("mission", type=click.Path(path_type=Path))
 OUT: Final = click.option(
-    "--out", type=click.Path(path_type=Path), metavar="DIR",
+    "--out", "-o", type=click.Path(path_type=Path), metavar="DIR",
     help="Folder for the results.  [default: viaspline-out/<name of the mission>]",
 )  # fmt: skip
 QUIET: Final = click.option(

@@ -21,8 +21,8 @@ FIGURE_NAMES: Final = tuple(
 
 @click.command()
 @click.option(
-    "--out", type=click.Path(path_type=Path), metavar="DIR", default=Path("viaspline-out/figures"),
-    show_default=True, help="Folder for the figures.",
+    "--out", "-o", type=click.Path(path_type=Path), metavar="DIR",
+    default=Path("viaspline-out/figures"), show_default=True, help="Folder for the figures.",
 )  # fmt: skip
 @QUIET
 def figures(out: Path, quiet: bool) -> None:

@@ -23,7 +23,7 @@ TRACK_M = 0.5
 
 @click.command()
 @click.argument("log", type=click.Path(path_type=Path), required=False)
-@click.option("--out", type=click.Path(path_type=Path), metavar="FILE",
+@click.option("--out", "-o", type=click.Path(path_type=Path), metavar="FILE",
               help="Write the keys to a file instead.")  # fmt: skip
 @click.option(
     "--track",
