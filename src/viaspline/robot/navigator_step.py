@@ -112,7 +112,7 @@ def step_taken(
     """
     before = replace(state, log=Log())
     if not before.progress.set_off:
-        before = set_off(before, time, plan)
+        before = set_off(task, before, measured, time, plan)
     if runs_backwards(before.watch, time):
         return _stood(task, state, measured, time)
     inputs = fresh_inputs(

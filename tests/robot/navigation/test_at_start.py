@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from viaspline.mission.model import Mission
@@ -89,3 +90,41 @@ def test_a_drive_that_departs_late_is_not_broken_off_before() -> None:
     run = simulate(Mission.model_validate(late), step=1.0)
     assert run.reached
     assert run.duration == pytest.approx(1009.0, abs=0.1)
+
+
+@pytest.mark.parametrize("drive", [None, {"differential": {"track_m": 0.4}}])
+@pytest.mark.parametrize("late", [2.5, 4000.0])
+def test_a_loop_that_begins_after_its_robot_was_to_depart_drives_from_the_start(
+    late: float, drive: Any
+) -> None:
+    """It was taken to have been set beside its path by as much as it would have driven by then."""
+    to_and_fro = {"keyframes": [[0, 4, -2], [4, 4, 2]], "after": "bounce"}
+    asked = mission({"known": [{**CART, "motion": to_and_fro}]}, drive=drive)
+    nav = Navigator(asked, period=STEP_S, warm=False)
+    here, begin = nav.reference(0.0), DEPARTS_S + late
+    kinds: list[str] = []
+    for k in range(3):
+        _, nav = nav.step(here, (), begin + STEP_S * k)
+        kinds += [event.kind for event in nav.events if event.kind != "lag"]
+    assert kinds == ["started"]
+    first = nav.trajectory
+    assert first.start_time >= begin
+    assert (first.distances[0], first.distances[-1]) == (0.0, nav.path.length)
+    moving = nav._state.knowledge.moving
+    times = np.arange(first.start_time, first.end_time, 0.05)
+    gaps = [
+        moving.distance(nav.path.at_distance(along)[:2], time)[0]
+        for time, along in zip(times.tolist(), first.distance_at(times).tolist(), strict=True)
+    ]
+    assert min(gaps) >= asked.robot.radius_m + asked.robot.clearance_m - 1e-6
+
+
+def test_on_a_closed_route_it_drives_from_the_start_as_well() -> None:
+    world = {"known": [{**CART, "motion": {"from": [50, 50], "velocity_mps": [0, 0.001]}}]}
+    data = mission(world).model_dump(by_alias=True, exclude_defaults=True)
+    corners = [{"at": at} for at in ((6, 0), (6, 5), (0, 5))]
+    data["route"] = {"start": [0, 0], "via": corners, "closed": True, "laps": 1}
+    nav = Navigator(Mission.model_validate(data), warm=False)
+    _, nav = nav.step(nav.reference(0.0), (), 900.0)
+    assert not nav.finished
+    assert nav.trajectory.end_time > 910.0

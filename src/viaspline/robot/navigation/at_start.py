@@ -24,6 +24,7 @@ from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.moving.track_hits import TrackedHits
 from viaspline.robot.perception.moving.tracking_premises import TrackingPremises
 from viaspline.robot.run import Event
+from viaspline.robot.state import RobotState
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -81,11 +82,14 @@ def _things_that_move(mission: Mission) -> MovingThings | None:
     return mission.robot.moving
 
 
-def set_off(state: NavigationState, time: float, plan: Plan) -> NavigationState:
+def set_off(
+    task: DriveTask, state: NavigationState, measured: RobotState, time: float, plan: Plan
+) -> NavigationState:
     """The state of a robot at its first step, at a time [s].
 
     Where anything of the mission moves, its clock is the one that counts: the robot stands until it
-    may depart, whatever it sees meanwhile. Else its law begins when the robot does.
+    may depart, whatever it sees meanwhile. Else its law begins when the robot does. One that stands
+    at its start after it was to depart gets a law from now on.
     """
     progress, schedule = state.progress, state.schedule
     if progress.controller is not None:
@@ -96,9 +100,22 @@ def set_off(state: NavigationState, time: float, plan: Plan) -> NavigationState:
         departs = mission.route.depart_s
     if plan.timed is None:
         law = law.delayed(max(time, departs) - law.start_time)
+    progress = replace(progress, time=time, set_off=True)
+    schedule = replace(schedule, trajectory=law, committed_until=departs)
+    if _is_late(schedule, measured, time):
+        schedule = rescheduled(task, progress, state.knowledge, schedule, speed=0.0)
     return replace(
         state,
-        progress=replace(progress, time=time, set_off=True),
-        schedule=replace(schedule, trajectory=law, committed_until=departs),
+        progress=progress,
+        schedule=schedule,
         log=state.log.with_events(Event("started", time, schedule.place(0.0), words)),
     )
+
+
+def _is_late(schedule: Schedule, measured: RobotState, time: float) -> bool:
+    """Whether a robot is nearer to its start than to where its law has it by now."""
+    should = float(schedule.trajectory.distance_at(time))
+    to_start, to_there = (
+        math.dist(measured.position, schedule.place(along)) for along in (0.0, should)
+    )
+    return should > 0.0 and to_start <= to_there
