@@ -178,7 +178,8 @@ class Navigator:
         Args:
             state: Where the robot is, as measured.
             sensed: What is seen now: a lidar's scan, or every obstacle in sight; those already
-                known make no difference. What moves is told of as ``MovingSighting``.
+                known make no difference. What moves is told of as ``MovingSighting``; what isn't
+                for half a second is taken to have gone.
             time: Now [s]. While it is less than in the step before, the robot stands.
 
         Returns:

@@ -239,7 +239,7 @@ def _perceived(now: _StepSoFar) -> _StepSoFar:
         knowledge, sighting = perceive(knowledge, sensed, now.time, foreseen)
     else:
         standing, moving = told_apart(sensed)
-        if moving or knowledge.tracked is not None:
+        if moving or knowledge.tracked.tracks:
             knowledge = knowledge.with_sightings(moving, now.time, foreseen)
         if not now.progress.finished:
             knowledge, sighting = perceive(knowledge, standing, now.time, foreseen)

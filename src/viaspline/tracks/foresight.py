@@ -55,3 +55,15 @@ class Foresight:
             position_m=self.sigmas * estimate.place_error,
             growth_mps=min(by_estimate, self.top_speed + speed),
         )
+
+    def error_after(self, late: float, estimate: MotionEstimate) -> MotionError:
+        """How far from there it may be, from so long after the estimate on [s].
+
+        >>> still = MotionEstimate.at_first_sight(0.0, (0.0, 0.0), 0.1, 0.2)
+        >>> later = Foresight(top_speed=2.0, accel=1.0, horizon=1.0).error_after(0.5, still)
+        >>> round(later.position_m, 6), round(later.growth_mps, 6)
+        (0.85, 1.1)
+        """
+        error = self.error(estimate)
+        grown = error.position_m + late * error.growth_mps
+        return MotionError.model_construct(position_m=grown, growth_mps=error.growth_mps)

@@ -14,10 +14,16 @@ SIGMAS: Final = 3.0
 """Something is too fast if it is even with an error of so many standard deviations."""
 
 
-def is_faster(estimate: MotionEstimate, top: float) -> bool:
-    """Whether something goes faster than the mission says that anything does [m/s]."""
+def is_faster(estimate: MotionEstimate, top: float, noise: float = 0.0) -> bool:
+    """Whether something goes faster than the mission says that anything does.
+
+    Args:
+        estimate: Of its motion.
+        top: What the mission says [m/s].
+        noise: Standard deviation of each coordinate of a velocity that is told [m/s].
+    """
     speed = math.hypot(*estimate.velocity.tolist())
-    return speed - SIGMAS * estimate.velocity_error > top
+    return speed - SIGMAS * max(estimate.velocity_error, noise) > top
 
 
 def too_fast_words(name: str, estimate: MotionEstimate, top: float) -> str:

@@ -45,6 +45,13 @@ def test_what_is_faster_than_the_mission_says_is_told_and_what_is_not_is_not(
     assert events_of(SLOW, sensor, **moving) == []
 
 
+def test_noise_does_not_make_things_too_fast() -> None:
+    """Velocities were taken to be right to a millimetre a second: told of 16 times in a drive."""
+    motion = {"keyframes": [[0, -5, 7], [20, 33, 7]], "after": "stay"}  # 1.9 m/s
+    sensor = {"range_m": 15, "velocity_noise_mps": 0.2}
+    assert events_of(motion, sensor, moving={"max_speed_mps": 2.0, "safety": "none"}) == []
+
+
 def test_what_jumps_is_told_when_it_does() -> None:
     motion = {"keyframes": [[0, 4, 7], [6, 7, 7]], "after": "loop"}
     with pytest.warns(vs.MissionWarning, match="jumps"):

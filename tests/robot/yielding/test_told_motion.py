@@ -102,3 +102,20 @@ def test_an_obstacle_with_a_motion_is_no_sighting(at_start: vs.Navigator) -> Non
     data = {"circle": {"center": (0, 0), "radius": 0.4}, "motion": motion}
     with pytest.raises(vs.GeometryError, match=r"sensed\[0\] has a motion"):
         at_start.step(STATE, [Obstacle.model_validate(data)], 0.0)
+
+
+@pytest.mark.parametrize("told_every", [1, 4, 8])
+def test_who_follows_things_may_be_slower_than_the_robot_steps(
+    at_start: vs.Navigator, told_every: int
+) -> None:
+    """In each step without news it was forgotten: told of at 2.5 Hz, it was touched at 2 m/s."""
+    nav, gaps = at_start, []
+    for i in range(200):
+        time = 0.05 * i
+        place = (7.0, 4.0 - 0.9 * time)
+        seen = [MovingSighting(0, CART, (*place, 0.0), (0.0, -0.9))] if i % told_every == 0 else []
+        state = nav.reference(time)
+        gaps.append(math.dist(state.position, place) - 0.65)
+        _, nav = nav.step(state, seen, time)
+    assert min(gaps) > 1.0
+    assert nav.distance > 5.0

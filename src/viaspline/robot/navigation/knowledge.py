@@ -31,7 +31,7 @@ class Knowledge:
             are told of again need not be compared with all that is known.
         moving: What moves, as far as it is known or foreseen.
         charted: How many of these are on the map.
-        tracked: What was told to move and isn't on the map; None: nothing was told of.
+        tracked: What was told to move and isn't on the map.
         hits: What a lidar has shown that moves or may; None: it is taken to show what stands.
     """
 
@@ -41,7 +41,7 @@ class Knowledge:
     in_sight: tuple[Obstacle, ...] = field(default=(), compare=False)
     moving: MovingObstacles = field(default_factory=MovingObstacles, compare=False)
     charted: int = 0
-    tracked: TrackedSightings | None = field(default=None, compare=False)
+    tracked: TrackedSightings = field(default_factory=TrackedSightings, compare=False)
     hits: TrackedHits | None = field(default=None, compare=False)
 
     def with_obstacles(self, obstacles: Sequence[Obstacle]) -> tuple[Knowledge, World]:
@@ -72,8 +72,7 @@ class Knowledge:
             time: Of the look [s].
             ahead: What tracked things are taken to do.
         """
-        tracked = self.tracked or TrackedSightings(velocity_noise=0.0)
-        tracked = tracked.with_sightings(seen, time)
+        tracked = self.tracked.with_sightings(seen, time)
         moving = self.charted_moving.and_those(ahead(tracked.tracks, time))
         return replace(self, tracked=tracked, moving=moving)
 

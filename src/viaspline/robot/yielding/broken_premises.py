@@ -35,14 +35,16 @@ def broken_premises(
     if premise is None:
         return ()
     top, here = premise.max_speed_mps, schedule.place(progress.distance)
-    fast = {key for key, track in _tracks(before) if is_faster(track.estimate, top)}
+    sensor = task.mission.robot.sensor
+    noise = 0.0 if sensor is None else sensor.velocity_noise_mps
+    fast = {key for key, track in _tracks(before) if is_faster(track.estimate, top, noise)}
     found = []
     for key, track in _tracks(now):
         name, data = key[1], {"name": key[1]}
         if isinstance(track, SightedTrack) and track.jumped:
             words = jumped_words(name)
             found.append(Event("premise", progress.time, here, words, data))
-        if is_faster(track.estimate, top) and key not in fast:
+        if is_faster(track.estimate, top, noise) and key not in fast:
             words = too_fast_words(name, track.estimate, top)
             found.append(Event("premise", progress.time, here, words, data))
     return tuple(found)
@@ -50,7 +52,7 @@ def broken_premises(
 
 def _tracks(known: Knowledge) -> Iterator[tuple[tuple[int, str], ObjectTrack | SightedTrack]]:
     """All that is followed, each with what it is known by."""
-    for sighted in known.tracked.tracks if known.tracked is not None else ():
+    for sighted in known.tracked.tracks:
         seen = sighted.sighting
         yield (seen.index, seen.obstacle.name or f"moving obstacle {seen.index + 1}"), sighted
     for track in known.hits.tracks if known.hits is not None else ():

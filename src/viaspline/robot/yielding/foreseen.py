@@ -18,7 +18,7 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.moving.foretell import as_obstacle, reckoned_motion
 from viaspline.robot.perception.moving.object_track import ObjectTrack
 from viaspline.robot.perception.moving.track_sightings import SightedTrack
-from viaspline.tracks.followed import STOOD_M
+from viaspline.tracks.followed import STOOD_M, WANDER
 from viaspline.tracks.motion_estimate import MotionEstimate
 from viaspline.tracks.straight_on import SIGMAS, straight_on
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -28,7 +28,7 @@ def foreseen(tracks: Iterable[ObjectTrack | SightedTrack], now: float) -> Moving
     """Where tracked things will be for a while, each on a straight line.
 
     Args:
-        tracks: Each as it is now.
+        tracks: Each as it is now, or as it was when it was told of last.
         now: By the clock of motions [s].
     """
     return MovingObstacles.tracked((_foreseen(track, now) for track in tracks), since=now)
@@ -38,6 +38,8 @@ def _foreseen(track: ObjectTrack | SightedTrack, now: float) -> Obstacle:
     estimate = track.estimate
     if isinstance(track, SightedTrack) and track.stays:
         return as_obstacle(track, _standing(estimate, now))
+    if now > estimate.time:
+        estimate = estimate.foreseen(now, WANDER)
     (x, y), (vx, vy) = estimate.place.tolist(), estimate.velocity.tolist()
     error, ahead = straight_on(estimate)
     frames = ((now, x, y), (now + ahead, x + vx * ahead, y + vy * ahead))

@@ -84,7 +84,7 @@ def _seen(knowledge: Knowledge) -> tuple[tuple[int, float, bool], ...]:
 
     Of what moves it isn't said where it is: who stands looks at it again soon anyway.
     """
-    told = knowledge.tracked.tracks if knowledge.tracked is not None else ()
+    told = knowledge.tracked.tracks
     hits = knowledge.hits.tracks if knowledge.hits is not None else ()
     standing = tuple(
         (one.sighting.index, one.still.since if one.stays else 0.0, not one.stays) for one in told

@@ -100,7 +100,7 @@ def _in_the_way(
     along = np.linspace(min(progress.distance, path.length), path.length, MAX_PLACES)
     ahead = np.asarray(path.at_distance(along))[:, :2]
     points = [via for via, _ in vias_after(path, progress.last_via)]
-    told = knowledge.tracked.tracks if knowledge.tracked is not None else ()
+    told = knowledge.tracked.tracks
     frames = moving.frames(now)
     for i in range(len(moving)):
         alone = moving.alone(i)

@@ -79,7 +79,7 @@ class WhatMayCome:
         """Against which passive safety is proven: put together once, where it is asked for."""
         knowledge, sight = self.knowledge, self.sight
         tracks = knowledge.hits.tracks if knowledge.hits is not None else ()
-        told = knowledge.tracked.tracks if knowledge.tracked is not None else ()
+        told = knowledge.tracked.tracks
         strict = Foresight(top_speed=self.top_speed, accel=ANY_ACCEL_MPS2)
         return PassivePremises(
             foretold((*tracks, *told), sight.time, strict), sight.time, self.top_speed, sight.eye,

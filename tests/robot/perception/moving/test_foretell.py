@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.moving.foretell import foretold
-from viaspline.robot.perception.moving.motion_sensor import MotionSensor
+from viaspline.robot.perception.moving.motion_sensor import MotionSensor, MovingSighting
 from viaspline.robot.perception.moving.track_sightings import TrackedSightings
 from viaspline.tracks.foresight import Foresight
 from viaspline.tracks.motion_estimate import AxisCovariance, MotionEstimate
@@ -74,6 +74,23 @@ def test_what_speeds_up_or_turns_within_its_limits_stays_in_its_tube(
         straight = estimate.place + estimate.velocity * step * (k + 1)
         off = math.dist(state[:2], straight)
         assert off <= error.position_m + error.growth_mps * step * (k + 1) + 1e-9
+
+
+@given(numbers, numbers, st.floats(0, 2), st.floats(0, math.tau), st.floats(0, math.tau),
+       st.floats(0, 0.5), st.floats(0, 3))  # fmt: skip
+@settings(deadline=None, max_examples=50)
+def test_what_was_missed_for_a_while_is_in_its_tube_wherever_it_turned(
+    x: float, y: float, speed: float, way: float, turned: float, missed: float, later: float
+) -> None:
+    """Strictly: it may turn at will, and go as fast as anything does, since it was seen last."""
+    disc = Obstacle.model_validate({"circle": {"center": (0, 0), "radius": 0.3}})
+    seen = MovingSighting(0, disc, (x, y, 0.0), (speed * math.cos(way), speed * math.sin(way)))
+    tracked = TrackedSightings().with_sightings([seen], 4.0).with_sightings([], 4.0 + missed)
+    strict = Foresight(top_speed=2.0, accel=1e6)
+    tube = foretold(tracked.tracks, 4.0 + missed, strict)
+    gone = 2.0 * (missed + later)
+    place = (x + gone * math.cos(turned), y + gone * math.sin(turned))
+    assert tube.distance(place, 4.0 + missed + later)[0] <= -0.3 + 1e-6
 
 
 def test_no_growth_is_more_than_the_top_speed_makes_it() -> None:

@@ -57,6 +57,25 @@ def test_tracks_are_those_in_range_and_keep_their_index() -> None:
     assert all(2 not in each for each in seen)
 
 
+def test_what_is_missed_is_kept_for_half_a_second() -> None:
+    sensor = MotionSensor(discs((3, 0, 1, 0)), 99.0)
+    tracked = TrackedSightings().with_sightings(sensor.seen((0, 0), 0.0), 0.0)
+    missed = tracked.with_sightings((), 0.2).with_sightings((), 0.5)
+    assert [track.sighting.index for track in missed.tracks] == [0]
+    assert missed.with_sightings((), 0.6).tracks == ()
+    again = missed.with_sightings(sensor.seen((0, 0), 0.55), 0.55)
+    assert [track.estimate.time for track in again.tracks] == [0.55]
+    assert not again.tracks[0].jumped
+
+
+def test_who_jumped_and_is_missed_then_has_not_jumped_again() -> None:
+    tracked = TrackedSightings()
+    for time, moving in ((0.0, discs((3, 0, 1, 0))), (0.1, discs((9, 0, 1, 0)))):
+        tracked = tracked.with_sightings(MotionSensor(moving, 99.0).seen((0, 0), time), time)
+    assert tracked.tracks[0].jumped
+    assert not tracked.with_sightings((), 0.2).tracks[0].jumped
+
+
 def test_looks_come_in_the_order_in_which_they_were_taken() -> None:
     with pytest.raises(GeometryError, match="order"):
         TrackedSightings(0.0).with_sightings((), 2.0).with_sightings((), 1.0)

@@ -25,7 +25,7 @@ def foretold(
     """Where tracked things will be, in their order, less certain from now on.
 
     Args:
-        tracks: Each as it is now: foreseen for this time, or seen in it.
+        tracks: Each as it is now, or as it was at the time of its estimate.
         now: By the clock of motions [s].
         foresight: What is taken for granted.
     """
@@ -38,8 +38,9 @@ def _foretold(track: ObjectTrack | SightedTrack, now: float, foresight: Foresigh
     estimate = track.estimate
     vx, vy = estimate.velocity.tolist()
     x, y = estimate.place.tolist()
-    start = (x - vx * now, y - vy * now)
-    motion = reckoned_motion(foresight.error(estimate), start=start, velocity=(vx, vy))
+    start = (x - vx * estimate.time, y - vy * estimate.time)
+    error = foresight.error_after(now - estimate.time, estimate)
+    motion = reckoned_motion(error, start=start, velocity=(vx, vy))
     return as_obstacle(track, motion)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -17,14 +17,18 @@ from viaspline.tracks.motion_estimate import MotionEstimate
 SAME_HEADING_RAD: Final = 1e-9
 """Something turns that has another heading in the next look [rad]."""
 
+MISSED_S: Final = 0.5
+"""What isn't told of goes on as it was seen to for so long [s], and is taken to have gone then: who
+follows things tells of them less often than a robot steps, and misses one now and then."""
+
 
 @dataclass(frozen=True, eq=False)
 class SightedTrack:
-    """One moving thing that is in sight.
+    """One moving thing that is in sight, or was a moment ago.
 
     Attributes:
         sighting: As it was seen last.
-        estimate: Its motion then.
+        estimate: Its motion then, at the time of that look.
         still: Since when it has been where it is.
         turns: Whether it may be turning: it was seen only once, or with another heading before.
         jumped: Whether it was somewhere else in the look before: it is followed anew since.
@@ -53,16 +57,14 @@ class SightedTrack:
 class TrackedSightings:
     """The moving things in sight; a new one for every look.
 
-    What isn't told of any more is out of range: nothing is known of it then.
-
     Attributes:
         velocity_noise: Standard deviation of each coordinate of a velocity that is told [m/s].
         wander: See ``TrackingPremises``.
-        tracks: In the order in which they were told of.
+        tracks: In the order in which they were told of; those that were missed come last.
         time: Of the latest look [s]; minus infinity before the first.
     """
 
-    velocity_noise: float
+    velocity_noise: float = 0.0
     wander: float = WANDER
     tracks: tuple[SightedTrack, ...] = ()
     time: float = -math.inf
@@ -83,8 +85,13 @@ class TrackedSightings:
                 "order in which they were taken"
             )
         before = {track.sighting.index: track for track in self.tracks}
-        tracks = tuple(self._seen(before.get(one.index), one, time) for one in sightings)
-        return TrackedSightings(self.velocity_noise, self.wander, tracks, time)
+        seen = tuple(self._seen(before.pop(one.index, None), one, time) for one in sightings)
+        missed = (
+            replace(one, jumped=False)
+            for one in before.values()
+            if time - one.estimate.time <= MISSED_S
+        )
+        return replace(self, tracks=(*seen, *missed), time=time)
 
     def _seen(
         self, before: SightedTrack | None, sighting: MovingSighting, time: float
