@@ -166,10 +166,16 @@ def _followed(now: _StepSoFar) -> _StepSoFar:
         now, motion = _on_next_part(now, schedule), None
         progress, schedule = now.progress, now.schedule
     schedule = caught_up(task, progress, knowledge, schedule, inputs.measured)
-    if before.watch.held is not None and inputs.stale is None:
+    if _may_go_on(before.watch, inputs, progress, schedule):
         schedule = let_on(task, progress, knowledge, schedule)
     now = replace(now, schedule=schedule)
     return now if motion is None else _judged(now, motion)
+
+
+def _may_go_on(watch: Watch, inputs: FreshInputs, progress: Progress, schedule: Schedule) -> bool:
+    """Whether a robot that was held still goes on; one that stands for good doesn't."""
+    was_held = watch.held is not None and inputs.stale is None
+    return was_held and schedule.giving_up is None and not progress.finished
 
 
 def _on_next_part(now: _StepSoFar, schedule: Schedule) -> _StepSoFar:

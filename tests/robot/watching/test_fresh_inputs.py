@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from viaspline.mission.model import Mission
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import LidarSensor, Scan
 from viaspline.robot.state import RobotState
@@ -212,3 +213,26 @@ def test_who_stood_meanwhile_was_not_blind() -> None:
         _, nav = nav.step(state, lidar.scan(state.position, state.heading), time)
         told += [event.time for event in nav.events if event.kind == "stale"]
     assert told == [62.0]
+
+
+@pytest.mark.parametrize("what", ["pose", "clock"])
+def test_who_brakes_for_good_does_not_go_on_when_what_was_missed_comes_again(what: str) -> None:
+    wall = Obstacle.model_validate({"polygon": [[3, -5], [4, -5], [4, 5], [3, 5]]})
+    mission = Mission.model_validate(
+        {
+            "world": {"unseen": [wall], "bounds": [-2, -5, 22, 5]},
+            "robot": {"radius_m": 0.3, "clearance_m": 0.2, "sensor": {"range_m": 5}},
+            "route": {"start": [0, 0], "goal": [20, 0]},
+        }
+    )
+    nav, time, x, speed = Navigator(mission), 0.0, 0.0, 0.0
+    while time < 8.0 and not nav.finished:
+        missed = nav.reason is not None and speed > 0.0 and nav.held is None
+        stamp = time - 0.5 if missed and what == "pose" else time
+        at = time - 0.5 if missed and what == "clock" else time
+        state = RobotState((x, 0.0), 0.0, speed, stamp=stamp)
+        command, nav = nav.step(state, [wall] if time > 1.9 else (), at)
+        speed = command.velocity[0]
+        x, time = x + 0.05 * speed, time + 0.05
+    assert nav.reason is not None
+    assert x <= 3.7
