@@ -55,6 +55,15 @@ def test_a_robot_beside_its_path_comes_back_without_swinging_over(
     assert abs(side[-1]) < 0.01
 
 
+def test_a_robot_far_beside_its_path_comes_back_at_an_angle_without_stopping(robot_of: Any) -> None:
+    """Its way back is steeper than the angle from which it turned on the spot: it stopped often."""
+    line = PiecewiseCubic([[[0, 0], [10, 0], [20, 0], [30, 0]]])
+    track = driven(line, robot_of("differential", noise=False), offset=(0.0, 3.0, 0.0))
+    under_way = (track.positions[:, 0] > 0.5) & (track.positions[:, 0] < 25.0)
+    assert track.speeds[under_way].min() > 0.2
+    assert abs(track.tracking.cross_track[-1]) < 0.01
+
+
 def test_a_robot_that_looks_the_other_way_turns_first(robot_of: Any) -> None:
     line = PiecewiseCubic([[[0, 0], [10, 0], [20, 0], [30, 0]]])
     track = driven(line, robot_of("differential", noise=False), offset=(0.0, 0.0, math.pi))

@@ -35,7 +35,8 @@ MAX_APPROACH_RAD = 1.0
 """A robot beside its path comes back to it at this angle at most [rad]."""
 
 ASTRAY_RAD = 0.7
-"""A robot that can turn on the spot does, if its heading is off by more [rad]."""
+"""A robot that can turn on the spot does, if its heading is off by more [rad]: from its path's, or
+from any between that and the one at which it comes back to its path."""
 
 STANDING_MPS, ASTRAY_AT_REST_RAD = 0.02, 0.1
 """One that is slower turns where it is before it sets off, if its heading is off by more: it may
@@ -119,7 +120,9 @@ def _under_way(
         return
     if not is_steered(model):
         most = ASTRAY_AT_REST_RAD if now < STANDING_MPS else ASTRAY_RAD
-        if abs(error) > most:
+        approach = -clip(0.5 * aside / distance, -MAX_APPROACH_RAD, MAX_APPROACH_RAD)
+        meant = clip(error, min(approach, 0.0), max(approach, 0.0))
+        if abs(error - meant) > most:
             note[NOTED_ALONG] = 0.0
             note[NOTED_TURN] = clip(-model.heading_gain * error, -model.spot_rate, model.spot_rate)
             return
