@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -11,6 +12,7 @@ import pytest
 
 from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import plan
 from viaspline.robot.navigation.drive_task import DriveTask, requirements_under_way
 from viaspline.robot.navigation.knowledge import Knowledge
@@ -24,8 +26,9 @@ from viaspline.robot.replanning.deadline import (
     STEP_WORK_S,
     with_time_to_search,
 )
-from viaspline.robot.replanning.replan_context import ReplanContext
+from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.simulator import simulate
+from viaspline.world.world import World
 
 Make = Callable[..., Mission]
 Shape = Callable[..., dict[str, Any]]
@@ -208,6 +211,26 @@ def test_a_robot_that_is_held_where_it_was_keeps_its_time_law_while_it_searches(
     for one, two in pairs:
         assert two.trajectory is one.trajectory
     assert navs[-1].reached
+
+
+def test_a_robot_that_needs_more_room_than_its_path_has_left_is_held_on_it(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    """What it needs beyond where it was held was looked for beyond the end of its path."""
+    mission, rock = mission_of([0, 0], [50, 0]), disc_at(50, 0.3, 2, "rock")
+    made, world = plan(mission), World([Obstacle.model_validate(rock)])
+    task = DriveTask(
+        mission, requirements_under_way(mission, 0.0), limits_of(mission.robot), reaction=0.1
+    )
+    schedule = Schedule(made.path, made.trajectory, laid_in=made.world, held_at=40.0)
+    progress = Progress(5.0, float(made.trajectory.distance_at(5.0)), last_via=0)
+    for kept in (0.0, 20.0):
+        needs = requirements_under_way(mission, kept)
+        context = ReplanContext.of(
+            replace(task, requirements=needs), progress, Knowledge(world, frozenset()), schedule
+        )
+        blocked = replace(context, obstruction=Obstruction(world, ("rock",), context.stop))
+        assert deadline.last_place(blocked) <= 40.0
 
 
 def test_a_robot_with_a_drive_searches_no_longer_than_until_its_next_command(

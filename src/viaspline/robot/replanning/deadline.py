@@ -194,7 +194,7 @@ def last_place(context: ReplanContext) -> float:
         room += needs.turn_radius
     if context.is_clear(high):  # what it passes on a wrong side is not too near
         high = max(low, context.obstruction.free_until)
-    elif low <= held < high and context.is_clear(held + room):
+    elif low <= held < high and context.is_clear(min(held + room, high)):
         return held
     while high - low > SPARE_RATIO * context.requirements.required:
         middle = 0.5 * (low + high)
