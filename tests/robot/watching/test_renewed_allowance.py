@@ -131,7 +131,7 @@ def test_where_more_cannot_be_kept_the_robot_stops_and_says_so(
     data["world"] = {"known": list(wall), "bounds": [-3, -6, 45, 6]}
     data["route"] = {"start": {"at": [0, 0.9], "heading_deg": 0}, "goal": [42, 0]}
     nav = Navigator(type(mission).model_validate(data))
-    done = loop(nav, cart_of(0.25, 0.4), limit=60.0)
+    done = loop(nav, cart_of(0.3, 0.5), limit=60.0)
     assert not done.nav.reached
     assert "beside its path" in str(done.nav.reason)
     last = deviations(done)[-1]

@@ -50,7 +50,7 @@ WAIT_M, WAIT_S = 0.25, 0.15
 """So far behind, and for its speed, a robot without a drive has its time law wait, as that of one
 with a drive does [m], [s];"""
 
-WAIT_AT_REST_M, WAIT_SLOWLY_S = 0.05, 0.4
+WAIT_AT_REST_M, WAIT_SLOWLY_S = 0.02, 0.4
 """and less far where it is slow: else it would stop short of its goal [m], [s]."""
 
 
