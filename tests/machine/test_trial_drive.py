@@ -119,6 +119,15 @@ def test_delay_and_lag_are_foreseen(
     assert track.tracking.cross.max < 0.12
 
 
+def test_a_robot_that_is_commanded_once_a_second_stays_about_its_path(
+    kind: str, robot_of: Any, bends: Any
+) -> None:
+    """It corrected sooner than it measured, swung by metres, and most never came to the end."""
+    track = driven(bends, robot_of(kind, noise=False), period=1.0)
+    assert track.finished
+    assert np.abs(track.tracking.cross_track).max() < 0.6
+
+
 @pytest.mark.parametrize("gain", [0.5, 2.0])
 def test_the_loop_has_a_gain_margin_of_two(robot_of: Any, bends: Any, gain: float) -> None:
     """Half and twice the feedback: a shorter or longer distance over which errors die out."""

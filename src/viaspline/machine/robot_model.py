@@ -27,6 +27,10 @@ CONVERGENCE_TIME_S, CONVERGENCE_DISTANCE_M = 0.6, 0.3
 """Over what a deviation dies out: from sweeps over examples, lags and noise, see
 benchmarks/README.md [s], [m]."""
 
+PERIODS_PER_LOOP = 2.0
+"""And over no less than so many times between two commands: a loop that corrects sooner than it
+measures swings [periods]."""
+
 STEERED_SWING_RAD = 0.2
 """By so much a heading may be off and steering still keeps up with what control asks of it, so that
 it dies out: of 0.05 to 0.45 this is off least over slow steering and noise [rad]."""
@@ -69,7 +73,7 @@ def drive_model_of(robot: RobotSpec, period: float = PERIOD_S) -> DriveModel:
         delay=0.0 if drive is None else drive.delay_s,
         lag=lag,
         spot_rate=spot_rate_of(robot),
-        convergence_time=max(CONVERGENCE_TIME_S, LAGS_PER_LOOP * lag),
+        convergence_time=max(CONVERGENCE_TIME_S, LAGS_PER_LOOP * lag, PERIODS_PER_LOOP * period),
         convergence_distance=max(CONVERGENCE_DISTANCE_M, steered_distance(actuators, speed)),
         along_gain=min(ALONG_GAIN_PER_S, slow),
         heading_gain=heading_gain_of(robot, period),
