@@ -80,16 +80,13 @@ def _cut(
     between = np.concatenate(
         [np.column_stack([packed.low, packed.high])[whole], part[:, 2:], part[:, :2]]
     )
-    kinds, kind = np.unique(np.column_stack([box, named]), axis=0, return_inverse=True)
-    low, high = np.full(len(kinds), np.inf), np.full(len(kinds), -np.inf)
+    was, groups, kind = _each_once(box, named)
+    low, high = np.full(len(was), np.inf), np.full(len(was), -np.inf)
     np.minimum.at(low, kind, between[:, 0])
     np.maximum.at(high, kind, between[:, 1])
-    was, groups = np.ascontiguousarray(kinds.T)
-    told, crossing = np.unique(
-        np.column_stack([packed.crossing[was], groups]), axis=0, return_inverse=True
-    )
+    told, of_told, crossing = _each_once(packed.crossing[was].astype(np.int64), groups)
     cut = packed._replace(
-        robots=packed.robots[told[:, 0]],
+        robots=packed.robots[told],
         box_first=np.searchsorted(was, packed.box_first).astype(np.int64),
         cell=packed.cell[was],
         crossing=crossing.astype(np.int32),
@@ -97,8 +94,18 @@ def _cut(
         low=low,
         high=high,
     )
-    spans = np.where(told[:, 1:] < 0, packed.span[told[:, 0]], _spans(courses, cut))
-    return cut._replace(span=spans), told[:, 1]
+    spans = np.where(of_told[:, None] < 0, packed.span[told], _spans(courses, cut))
+    return cut._replace(span=spans), of_told
+
+
+def _each_once(numbers: Ints, groups: Ints) -> tuple[Ints, Ints, Ints]:
+    """Pairs of a number and a group from -1 on, each once and sorted; which of them each is.
+
+    A pair is sorted as one number, which is several times as fast as by two columns.
+    """
+    width = int(groups.max(initial=-1)) + 2
+    pairs, which = np.unique(numbers * width + groups + 1, return_inverse=True)
+    return pairs // width, pairs % width - 1, which
 
 
 def _spans(courses: FleetCourses, packed: PackedCrossings) -> Floats:

@@ -49,7 +49,7 @@ def untangled_orders(
     while circles.any() and left > 0 and size != (size := int(circles.sum())):
         found = np.unique(graph.crossings.crossing[graph.in_circles(second, circles)])
         for crossing in found[np.argsort(orders.clarity[found], kind="stable")].tolist():
-            boxes = np.flatnonzero(graph.crossings.crossing == crossing)
+            boxes = graph.boxes_of(crossing)
             if graph.in_circles(second, circles, boxes).any():
                 circles = _with_another_order(graph, orders, second, circles, boxes)
                 left -= 1
@@ -96,6 +96,15 @@ class _Graph(NamedTuple):
     def circles(self, second: Flags) -> Flags:
         """The nodes that are in circles, or between two, (nodes,)."""
         return in_circles(self.courses, self.crossings, self.waits, second)
+
+    def boxes_of(self, crossing: int) -> Ints:
+        """The boxes of a crossing, (k,): its two robots have them."""
+        first = self.crossings.box_first
+        of_both = np.concatenate(
+            [np.arange(first[k], first[k + 1]) for k in self.crossings.robots[crossing]]
+        )
+        found: Ints = of_both[self.crossings.crossing[of_both] == crossing]
+        return found
 
     def in_circles(self, second: Flags, circles: Flags, boxes: Ints | slice = EVERY_BOX) -> Flags:
         """Which of some boxes are part of one, (k,)."""

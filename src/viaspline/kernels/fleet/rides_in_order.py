@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Flags, Floats, Ints
-from viaspline.kernels.fleet.blocked_times import goes_from
+from viaspline.kernels.arrays import Flags, Floats, Ints, Steps
+from viaspline.kernels.fleet.blocked_times import goes_in_cell, node_before
 from viaspline.kernels.fleet.notches import can_slow_at, slow_down
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
@@ -30,17 +30,31 @@ PATIENT_RIDES = 10
 
 @inner
 def _releases(
-    courses: PackedCourses, crossings: PackedCrossings, laws: PackedLaws, second: Flags, robot: int
-) -> Floats:
+    courses: PackedCourses, crossings: PackedCrossings, laws: PackedLaws, second: Flags,
+    awaited: Steps, robot: int,
+) -> Floats:  # fmt: skip
     """When a robot may be at each of its nodes at the earliest [s], (nodes of the robot,)."""
     first = courses.first[robot]
     times = np.full(courses.first[robot + 1] - first, -np.inf)
     for b in range(crossings.box_first[robot], crossings.box_first[robot + 1]):
         if second[b]:
-            gone = goes_from(courses, laws, crossings.other[b], crossings.high[b])
+            gone = goes_in_cell(courses, laws, crossings.other[b], awaited[b], crossings.high[b])
             k = crossings.cell[b] - first
             times[k] = max(times[k], gone)
     return times
+
+
+@inner
+def _awaited(courses: PackedCourses, crossings: PackedCrossings, second: Flags) -> Steps:
+    """The last node before each box's end on the path of who passes first; 0 elsewhere, (boxes,).
+
+    Rides are reckoned many times, and paths stay as they are.
+    """
+    awaited = np.zeros(second.size, np.int32)
+    for b in np.flatnonzero(second):
+        first, last = courses.first[crossings.other[b]], courses.first[crossings.other[b] + 1] - 1
+        awaited[b] = node_before(courses.distance, first, last, crossings.high[b])
+    return awaited
 
 
 @inner
@@ -93,6 +107,7 @@ def rides_in_order(
     keeps = np.ones(robots, np.bool_)
     for robot in order:
         take_law(new_ride(courses, rides, robot), laws)
+    awaited = _awaited(courses, crossings, second)
     is_due, changes = np.ones(robots, np.bool_), np.zeros(robots, np.int64)
     for k in range(rounds):
         is_settled = True
@@ -101,7 +116,7 @@ def rides_in_order(
                 continue
             is_due[robot] = False
             is_near = changes[robot] > PATIENT_RIDES or 2 * k >= rounds
-            releases = _releases(courses, crossings, laws, second, robot)
+            releases = _releases(courses, crossings, laws, second, awaited, robot)
             ride, keeps[robot] = _ride_after(courses, rides, robot, releases, is_near)
             change = first_change(ride, laws)
             if change >= 0:
