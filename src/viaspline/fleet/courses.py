@@ -29,6 +29,8 @@ END_CELL_M = 0.01
 """Length of the first and of the last cell of a course [m]."""
 SAME_KNOT_M = 1e-7
 """Knots that are no farther apart are one [m]."""
+ROUNDED_M = 1e-11
+"""By which a place along a path that was reckoned otherwise may differ [m]."""
 AnyPlan: TypeAlias = Plan | SpatialPlan
 """Of a robot in the plane, or of one in space."""
 
@@ -217,11 +219,19 @@ def _places_in_space(paths: Sequence[FleetPath], distance: Floats, first: Ints) 
 
 
 def _joined(knots: Floats, more: Floats) -> Floats:
-    """Knots, and those of others that aren't as good as there."""
+    """Knots, and those of others that aren't as good as there.
+
+    Of two others that are near one knot both are kept: between them a speed may change at once.
+    """
     at = np.searchsorted(knots, more)
-    before = np.abs(more - knots[np.maximum(at - 1, 0)])
-    after = np.abs(more - knots[np.minimum(at, len(knots) - 1)])
-    return np.sort(np.concatenate([knots, more[np.minimum(before, after) > SAME_KNOT_M]]))
+    low, high = np.maximum(at - 1, 0), np.minimum(at, len(knots) - 1)
+    nearest = np.where(more - knots[low] < knots[high] - more, low, high)
+    off = np.abs(more - knots[nearest])
+    is_step = (np.diff(nearest) == 0) & (np.diff(more) > ROUNDED_M)
+    is_step &= np.maximum(off[1:], off[:-1]) <= SAME_KNOT_M
+    is_two = np.append(is_step, False) | np.append(False, is_step)
+    is_new = (off > SAME_KNOT_M) | (is_two & (off > ROUNDED_M))
+    return np.sort(np.concatenate([knots, more[is_new]]))
 
 
 def _with_short_ends(knots: Floats, length: float) -> Floats:

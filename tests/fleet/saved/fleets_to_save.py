@@ -64,6 +64,16 @@ ASKED: dict[str, dict[str, Any]] = {
             go("b", [30, 10], [-10, 12]),
         ],
     },
+    "a patrol that hardly turns": {  # its speeds change within nanometres
+        "robots": {"van": {"max_yaw_rate_degps": 0.03}},
+        "fleet": [
+            {
+                "name": "p",
+                "robot": "van",
+                "route": {"start": [0, 0], "via": [[6, 0], [3, 5]], "closed": True},
+            },
+        ],
+    },
     "laps": {
         "fleet": [
             {"name": "p", "route": {**SQUARE, "laps": 1}},

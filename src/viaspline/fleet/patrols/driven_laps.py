@@ -11,7 +11,6 @@ from viaspline.curve.path import Path
 from viaspline.fleet.courses import AnyPlan, FleetCourses
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.patrols.repeated_laws import (
-    SAME_M,
     ends_at,
     laws_in_a_row,
     repeated_law,
@@ -33,6 +32,8 @@ from viaspline.trajectory.limits import Station
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.whole_plan import fastest_law, stations
 
+SAME_M = 1e-6
+"""Places on a path that are no farther apart are one."""
 SAME_PLACE_SHARE = 1e-9
 """Of the way to a place, which is rounding."""
 

@@ -15,8 +15,6 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.trajectory.trajectory import Trajectory
 
-SAME_M = 1e-6
-"""Places on a path that are no farther apart are one."""
 SAME_S = 1e-9
 """Times that are no farther apart are one."""
 
@@ -119,6 +117,5 @@ def _moved(law: Trajectory, k: int, seams: Floats, period: float) -> Trajectory:
 
 def ends_at(law: Trajectory, end: float) -> Trajectory:
     """A law that ends at a place that it ends at but for rounding [m]."""
-    distances = law.distances.copy()
-    distances[distances >= end - SAME_M] = end
-    return replace(law, distances=distances)
+    is_end = law.distances == law.distances[-1]
+    return replace(law, distances=np.where(is_end, end, np.minimum(law.distances, end)))
