@@ -205,3 +205,27 @@ def test_a_robot_that_has_no_law_is_among_those_that_are_proven_apart() -> None:
     assert run.distance_at("r0", np.array([0.0, 5.0])).tolist() == [0.0, 0.0]
     with pytest.raises(vs.GeometryError, match="times: expected numbers"):
         run.distance_at("r0", "soon")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("delays", [Delays(), Delays(slowed=0.3, halts=2.0, halts_s=3.0, lost=0.3)])
+def test_a_robot_gets_past_the_tip_of_a_turn_that_it_drives_at_nanometres_a_second(
+    delays: Delays,
+) -> None:
+    start = {"at": [23.23, 17.18], "heading_deg": 47.251}
+    route = {"start": start, "via": [[23.24, 17.83]], "closed": True, "laps": 1}
+    fleet = vs.Fleet.model_validate(
+        {
+            "spline": {"tension": 0.482},
+            "robots": {"cart": {"max_yaw_accel_degps2": 111.385}},
+            "fleet": [{"name": "a", "robot": "cart", "route": route}],
+        }
+    )
+    plan = vs.plan_fleet(fleet)
+    law = plan.plans["a"].trajectory
+    assert law.speeds[law.speeds > 0.0].min() < 1e-6
+    run = vs.simulate_fleet(fleet, delays, plan)
+    assert run.deadlock == ()
+    if delays == Delays():
+        assert run.arrivals["a"] == pytest.approx(law.end_time, abs=0.2)
+    else:
+        assert run.arrivals["a"] > law.end_time

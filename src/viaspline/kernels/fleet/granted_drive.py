@@ -23,7 +23,9 @@ from viaspline.kernels.jit import inlined, inner
 NEAR_M: Final = 1e-9
 """So near the end of its grant a robot stands there."""
 NEAR_SQUARE: Final = 1e-12
-"""So little over a curve a robot is on it [m²/s²]."""
+"""So little over a curve a robot is on it [m²/s²], unless its law itself is hardly faster."""
+NEAR_SHARE: Final = 1e-3
+"""Of the square of the speed that its law has where it is slowest, but not at rest."""
 SLOWEST: Final = 1e-4
 """A robot that is slowed down to less than this part of its speed doesn't drive [1]."""
 
@@ -85,8 +87,9 @@ def new_drive(courses: PackedCourses, rides: PackedRides, trouble: PackedTrouble
 
 @inlined
 def _rise(
-    here: float, top: float, top_slope: float, room: float, speeds_up: float, slows_down: float
-) -> tuple[float, float]:
+    here: float, top: float, top_slope: float, room: float, speeds_up: float, slows_down: float,
+    near: float,
+) -> tuple[float, float]:  # fmt: skip
     """How the square of a speed goes on, and how far like that at most.
 
     Args:
@@ -96,19 +99,20 @@ def _rise(
         room: Up to where the robot may go [m].
         speeds_up: The steepest slope up [m/s²].
         slows_down: The steepest slope down.
+        near: By so much the square of a speed is rounded [m²/s²].
 
     Returns:
         The slope [m/s²], and after how many metres another holds.
     """
     brakes = slows_down * room
-    if here > top + NEAR_SQUARE:
+    if here > top + near:
         until = here / slows_down
         if top_slope + slows_down > 0.0:
             until = min(until, (here - top) / (top_slope + slows_down))
         return -slows_down, until
-    if here >= brakes - NEAR_SQUARE:
+    if here >= brakes - near:
         return -slows_down, here / slows_down
-    if here >= top - NEAR_SQUARE and top_slope <= speeds_up:
+    if here >= top - near and top_slope <= speeds_up:
         slope = top_slope
         until = np.inf
     else:
@@ -117,6 +121,20 @@ def _rise(
     if slope + slows_down > 0.0:
         until = min(until, (brakes - here) / (slope + slows_down))
     return slope, until
+
+
+@inlined
+def _near_square(rides: PackedRides, node: int, pace: float) -> float:
+    """By how much the square of a speed is rounded in the cell behind a node [m²/s²].
+
+    At the tip of a turn on the spot a law may have less than a micrometre a second.
+    """
+    slow, fast = rides.square[node], rides.square[node + 1]
+    if slow == 0.0 or 0.0 < fast < slow:
+        slow = fast
+    if slow == 0.0:
+        return NEAR_SQUARE
+    return min(NEAR_SQUARE, NEAR_SHARE * slow * (pace * pace if pace >= SLOWEST else 1.0))
 
 
 @inlined
@@ -189,12 +207,14 @@ def drive_stretch(
         slope = (rides.square[node + 1] - rides.square[node]) / width * pace * pace
         top = rides.square[node] * pace * pace
         top += slope * (drive.place[robot] - courses.distance[node])
-    rise, far = _rise(square, top, slope, room, 2.0 * rides.accel[robot], 2.0 * rides.brake[robot])
+    near = _near_square(rides, node, pace)
+    speeds_up, slows_down = 2.0 * rides.accel[robot], 2.0 * rides.brake[robot]
+    rise, far = _rise(square, top, slope, room, speeds_up, slows_down, near)
     ends = far >= left
     far = min(far, left)
     speed = math.sqrt(square)
     then = max(square + rise * far, 0.0)
-    if then < NEAR_SQUARE or (ends and rides.square[node + 1] == 0.0):
+    if then < near or (ends and rides.square[node + 1] == 0.0):
         then = 0.0
         rise = -square / far if far > 0.0 else rise
     if speed == 0.0 and then == 0.0:
@@ -205,7 +225,7 @@ def drive_stretch(
         late = until - now
         drive.place[robot] = min(drive.place[robot] + (speed + 0.25 * rise * late) * late, end)
         square = max(speed + 0.5 * rise * late, 0.0) ** 2
-        has_stopped = rise <= 0.0 and square < NEAR_SQUARE  # else a hair of speed is kept for ever
+        has_stopped = rise <= 0.0 and square < near  # else a hair of speed is kept for ever
         drive.square[robot] = 0.0 if has_stopped else square
         return until
     drive.square[robot] = then
