@@ -233,7 +233,7 @@ def test_no_via_point_that_nobody_needs_makes_a_flight_sooner(beside: tuple[int,
 
 def test_a_way_that_turns_more_sharply_than_the_robot_counts_for_what_it_becomes() -> None:
     """Its turns are laid anew, for up to a fifth more: of two ways that is the one not taken."""
-    way = TautWay("left", np.zeros((1, 3)))
+    way = TautWay("left", np.zeros((1, 3)), 30.0)
     nothing = np.empty((0, 4, 3))
     sharp = WeighedWay(way, Candidate("left", way.inner, nothing, duration=39.4), 1.2 * 39.4)
     gentle = WeighedWay(way, Candidate("right", way.inner, nothing, duration=39.7), 39.7)

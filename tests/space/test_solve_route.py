@@ -41,7 +41,7 @@ class OverAll:
         for above in (2.0, 10.0):
             inner = self.asked.places[leg : leg + 2].copy()
             inner[:, 2] = ROOF + above
-            found.append(TautWay("over", inner))
+            found.append(TautWay("over", inner, 200.0 + above))
         return found
 
     def defers(self, proof: Certificate) -> bool:

@@ -27,12 +27,15 @@ LEAST_GAIN: Final = 1e-3
 LEAST_SHORTER: Final = 0.02
 """Part of the length of a route that has to be gained by leaving the spline where it is clear."""
 
-MOST_FINISHED: Final = 3
+MOST_FINISHED: Final = 5
 """So many routes with other ways of their legs are laid with fewer corners and closer turns, at
 most,"""
 
 NEARLY: Final = 1.1
-"""if they cost no more than that, of the cheapest."""
+"""if they cost no more than that, of the cheapest;"""
+
+OTHER_SIDE: Final = 1.05
+"""and beside them the cheapest on each other side that costs no more than that."""
 
 MOST_FEWER: Final = 16
 """So many ways with fewer corners are tried in their route at most."""
@@ -64,8 +67,9 @@ class CheapestRoute:
             legs: Of the route, left to the spline.
 
         Returns:
-            That, the one whose clear legs are the spline's, and the one whose legs are the best
-            alone, if those are others: sharp turns may be laid more gently there.
+            That, the one whose clear legs are the spline's, others that were finished beside it,
+            the cheaper first, and the one whose legs are the best alone, if those are others: sharp
+            turns may be laid more gently there.
 
         Raises:
             NoPathError: When there is no way, proven.
@@ -90,9 +94,10 @@ class CheapestRoute:
             self._laid_sooner(self._with_fewer_corners(legs, one))
             for one in self._best_together(legs, best)
         ]
-        together = min(finished, key=attrgetter("cost"))
-        routes = self._and_straight(together)
-        return routes if together.route is best.route else [*routes, best.route]
+        finished.sort(key=attrgetter("cost"))
+        routes = [*self._and_straight(finished[0]), *(one.route for one in finished[1:])]
+        known = any(route is best.route for route in routes)
+        return routes if known else [*routes, best.route]
 
     def _priced(self, route: LedRoute) -> PricedRoute:
         return PricedRoute(cost_of(self.layer.problem)(route.laid), route)
@@ -136,7 +141,13 @@ class CheapestRoute:
                 if tried[-1].cost < best.cost * (1 - LEAST_GAIN):
                     best = tried[-1]
         tried.sort(key=attrgetter("cost"))
-        return [one for one in tried if one.cost <= NEARLY * best.cost][:MOST_FINISHED]
+        finished = [one for one in tried if one.cost <= NEARLY * best.cost][:MOST_FINISHED]
+        sides = {one.route.sides for one in finished}
+        for one in tried:
+            if one.cost <= OTHER_SIDE * best.cost and one.route.sides not in sides:
+                finished.append(one)
+                sides.add(one.route.sides)
+        return finished
 
     def _with_fewer_corners(self, legs: RouteLegs, found: PricedRoute) -> PricedRoute:
         """A route with fewer corners of its legs, as long as the whole of it gets cheaper by that.

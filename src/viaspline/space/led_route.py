@@ -15,7 +15,7 @@ import numpy as np
 from viaspline.curve.certificate import Certificate
 from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
-from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.planning.problem.ledger import LedgerEntry, PassingSide
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
 from viaspline.space.laying.laid_route import RouteLegs
 from viaspline.space.leg_check import LegCheck
@@ -43,6 +43,11 @@ class LedWay(NamedTuple):
     inner: Floats
     entry: LedgerEntry
 
+    @property
+    def side(self) -> PassingSide:
+        """On which side of what it is led round it passes."""
+        return next(one.side for one in self.entry.candidates if one.chosen)
+
 
 class LedWays(NamedTuple):
     """The best taut way, and the best with fewer corners, which is no slower alone.
@@ -69,6 +74,11 @@ class LedRoute(ClearRoute):
     """A route, and the ways of the legs that are led round something."""
 
     ways: Mapping[int, LedWay]
+
+    @property
+    def sides(self) -> tuple[PassingSide, ...]:
+        """On which side each of these legs passes what it is led round, by leg."""
+        return tuple(self.ways[leg].side for leg in sorted(self.ways))
 
 
 @dataclass(frozen=True, eq=False)

@@ -150,7 +150,7 @@ class LegRouter:
         if isinstance(solid, Voxels):
             router = router.up_to(most)
         past = seeds(router, solid, *ends, self.problem.required, self._norm, taut)
-        ways = [TautWay(seed.side, seed.route.points[1:-1]) for seed in past]
+        ways = [_way(seed.side, seed.route) for seed in past]
         for seed in past:
             if seed.side != cheapest.side and NEARLY * seed.route.cost <= most:
                 one_side = gate(solid, *ends, [seed.side])
@@ -182,7 +182,7 @@ class LegRouter:
         taut = self._taut(leg)
         router = self._router.up_to(LONGER * taut.cost).best_up_to(taut.cost)
         past = seeds(router, solid, *self._ends(leg), self.problem.required, self._norm, taut)
-        ways = [TautWay(seed.side, seed.route.points[1:-1]) for seed in past]
+        ways = [_way(seed.side, seed.route) for seed in past]
         return _different([_way_of(solid, taut), *ways])[1:]
 
     def pulled(self, leg: int, way: Floats) -> Floats | None:
@@ -238,7 +238,7 @@ class LegRouter:
             outcome = quick.find(first, last, kept + share * body, self._norm, gates)
             if not isinstance(outcome, Found) or outcome.cost > most:
                 return  # where there is no room for less, there is none for more
-            yield TautWay(side, outcome.value.points[1:-1])
+            yield _way(side, outcome.value)
 
     def _in_the_way(self, proof: Certificate) -> Solid | None:
         """The solid that a curve is nearest to; None if that is something else."""
@@ -270,9 +270,14 @@ def _different(ways: Sequence[TautWay]) -> Sequence[TautWay]:
     return kept
 
 
+def _way(side: PassingSide, route: TautRoute) -> TautWay:
+    """A route as the way of a leg, on a side."""
+    return TautWay(side, route.points[1:-1], route.cost)
+
+
 def _way_of(solid: Solid | None, route: TautRoute) -> TautWay:
     """A route as the way of a leg, named by its side of a solid."""
-    return TautWay(_side_past(solid, route), route.points[1:-1])
+    return _way(_side_past(solid, route), route)
 
 
 def _side_past(solid: Solid | None, route: TautRoute) -> PassingSide:

@@ -38,8 +38,9 @@ WIDER: Final = 1.25
 """Than the radius at which no speed is lost: corners that are moved outward get sharper."""
 
 
-HOPEFUL: Final = 1.2
-"""Ways that cost more, of the cheapest, aren't looked at for corners to be left out."""
+HOPEFUL: Final = 0.06
+"""Ways whose lines cost more than the cheapest by that, of the cheapest curve, aren't looked at for
+corners to be left out: what a curve costs beyond its lines is much the same on every side then."""
 
 
 SHARP: Final = "turns more sharply than the robot itself"
@@ -63,10 +64,12 @@ class TautWay:
     Attributes:
         side: On which side it passes.
         inner: Its corners without its ends [m], shape (k, 3).
+        cost: Of its lines, flown as fast as their slopes allow [m or s].
     """
 
     side: PassingSide
     inner: Floats
+    cost: float
 
 
 class WaysPast(Protocol):
@@ -219,15 +222,20 @@ class LegScale:
         """
         if self.problem.objective == "length":
             return found
-        worth = HOPEFUL * min(one.cost for one in found)
-        return [self._sooner(one) if one.cost <= worth else one for one in found]
+        laid = [one for one in found if math.isfinite(one.cost)]
+        lines, best = min(one.way.cost for one in laid), min(one.cost for one in laid)
+        worth = lines + HOPEFUL * best
+        return [
+            self._sooner(one) if one.way.cost <= worth and math.isfinite(one.cost) else one
+            for one in found
+        ]
 
     def _sooner(self, plain: WeighedWay) -> WeighedWay:
         points = self._points(plain.way)
         taken = sooner_corners(points, corner_radius(self.problem), self._time)
         if len(taken) == len(points):
             return plain
-        return self._weighed(TautWay(plain.way.side, taken[1:-1]))
+        return self._weighed(replace(plain.way, inner=taken[1:-1]))
 
     def _points(self, way: TautWay) -> Floats:
         """From via point to via point [m], (n, 3)."""

@@ -70,6 +70,7 @@ class SpaceRouter:
         most_nodes: Places of each lattice that are looked at; ten times as many among voxels alone.
         most_cells: Cells that are looked at for a proof.
         halvings: How often a lattice is halved.
+        goes_back: Whether lattices are searched from the goal as well.
         most_cost: A route that costs more needn't be found [m or s].
         worth: A route that costs more needn't be the cheapest of its kind [m or s].
     """
@@ -83,13 +84,14 @@ class SpaceRouter:
     most_nodes: int = 100_000
     most_cells: int = 400_000
     halvings: int = 2
+    goes_back: bool = True
     most_cost: float = math.inf
     worth: float = math.inf
 
     @property
     def quick(self) -> SpaceRouter:
-        """This one for ways that needn't be there: on one lattice, and without a proof."""
-        return replace(self.without_proof, halvings=0)
+        """This one for ways that needn't be there: on one lattice, there alone, without a proof."""
+        return replace(self.without_proof, halvings=0, goes_back=False)
 
     @property
     def without_proof(self) -> SpaceRouter:
@@ -178,13 +180,13 @@ class SpaceRouter:
         return self._pulled(points, radius, checked_norm(norm), gates)
 
     def _by_lattice(self, query: RouteQuery, lattice: PlaceLattice) -> TautRoute | None:
-        """The better of two routes through the lattice, searched there and back.
+        """The better of two routes through the lattice, searched there and mostly back.
 
         What isn't found there, isn't back.
         """
         there = self._there(query, lattice)
         best = self._better(query, there, None)
-        if best is None or best.cost > self.worth:
+        if best is None or best.cost > self.worth or not self.goes_back:
             return best
         return self._better(query, self._there(query.reversed, lattice)[::-1].copy(), best)
 
