@@ -1,7 +1,4 @@
-"""Heights for a curve that was laid on the ground.
-
-Tested through ``planning/methods/test_ordered``.
-"""
+"""Heights for a curve that was laid on the ground."""
 
 from __future__ import annotations
 
@@ -48,7 +45,7 @@ def climbs_upright(places: Floats) -> bool:
 
 
 def with_heights(
-    spans: Floats, joints: NDArray[np.int64], heights: Floats
+    spans: Floats, joints: NDArray[np.int64], heights: Floats, closed: bool
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Spans with further coordinates that run smoothly from via point to via point.
 
@@ -60,6 +57,7 @@ def with_heights(
         spans: On the ground [m], shape (m, 4, 2).
         joints: The span that begins at each via point, m at the end, shape (v,).
         heights: The other coordinates of each via point [m], shape (v, e).
+        closed: Whether the last via point is the first, and the curve goes on there.
 
     Returns:
         Spans, shape (l, 4, 2 + e), l >= m; and which of them begin where each of the given ones
@@ -77,7 +75,7 @@ def with_heights(
     ])  # fmt: skip
     along = np.asarray(PiecewiseCubic(spans).distance(np.arange(len(spans) + 1.0)))
     along[begins[joints]] = via_distances  # but for rounding
-    profile = _profile(via_distances, heights)
+    profile = _profile(via_distances, heights, _via_slopes(via_distances, heights, closed))
     at, slope = profile(along), profile(along, 1)
     first = np.linalg.norm(spans[:, 1] - spans[:, 0], axis=1)[:, None]
     last = np.linalg.norm(spans[:, 3] - spans[:, 2], axis=1)[:, None]
@@ -111,8 +109,8 @@ def _halves(span: Floats, t: float) -> tuple[Floats, Floats]:
     return np.array([row[0] for row in rows]), np.array([row[-1] for row in rows[::-1]])
 
 
-def _profile(via_distances: Floats, heights: Floats) -> PPoly:
-    """Heights over the distance on the ground.
+def _profile(via_distances: Floats, heights: Floats, slopes: Floats) -> PPoly:
+    """Heights over the distance on the ground, with slopes at the via points.
 
     On a leg the second derivative is 0 at both ends and runs straight to what it is at the end of
     the first ramp and at the beginning of the last one: so that it meets height and slope at its
@@ -122,7 +120,6 @@ def _profile(via_distances: Floats, heights: Floats) -> PPoly:
 
     lengths = np.diff(via_distances)[:, None]
     mean = np.diff(heights, axis=0) / lengths
-    slopes = _via_slopes(via_distances, heights, mean)
     over, by = mean - slopes[:-1], slopes[1:] - slopes[:-1]
     area = 0.5 * (1.0 - RAMP) * lengths
     set_in, end = (3.0 * over - by) / area, (2.0 * by - 3.0 * over) / area
@@ -141,11 +138,17 @@ def _profile(via_distances: Floats, heights: Floats) -> PPoly:
     return PPoly(coefficients, np.append(knots, via_distances[-1]))
 
 
-def _via_slopes(via_distances: Floats, heights: Floats, mean: Floats) -> Floats:
-    """How steep the profile is at the via points, (v, e); ``mean`` is that of each leg."""
+def _via_slopes(via_distances: Floats, heights: Floats, closed: bool) -> Floats:
+    """How steep the profile is at the via points, (v, e)."""
     from scipy.interpolate import PchipInterpolator
 
-    slopes = np.asarray(PchipInterpolator(via_distances, heights)(via_distances, 1))
-    most = STEEPEST * np.abs(mean)
+    steps = np.diff(via_distances)
+    if closed:  # with the last leg once more before the first, and the first after the last
+        steps = np.concatenate((steps[-1:], steps, steps[:1]))
+        heights = np.concatenate((heights[-2:-1], heights, heights[1:2]))
+    along = np.concatenate(([0.0], np.cumsum(steps)))
+    slopes = np.asarray(PchipInterpolator(along, heights)(along, 1))
+    most = STEEPEST * np.abs(np.diff(heights, axis=0) / steps[:, None])
     limits = np.concatenate((most[:1], np.minimum(most[1:], most[:-1]), most[-1:]))
-    return np.clip(slopes, -limits, limits)
+    slopes = np.clip(slopes, -limits, limits)
+    return slopes[1:-1] if closed else slopes

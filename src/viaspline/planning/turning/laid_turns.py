@@ -54,7 +54,7 @@ def through_spans(
         detours: Spans that begin at a detour via point.
     """
     ends = [*sequence.vias, sequence.vias[0]] if sequence.closed else sequence.vias
-    spans, begins = with_heights(spans, joints, sequence.places[:, 2:])
+    spans, begins = with_heights(spans, joints, sequence.places[:, 2:], sequence.closed)
     joints, detours = begins[joints], begins[list(detours)].tolist()
     spans[1:, 0] = spans[:-1, 3]  # they meet but for rounding
     for u, via in zip(joints, ends, strict=True):
