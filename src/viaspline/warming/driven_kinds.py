@@ -95,7 +95,8 @@ def _meet_seldom() -> None:
     from viaspline.planning.problem.requirements import Requirements
     from viaspline.planning.routing.bottleneck import bottleneck_between
     from viaspline.planning.turning.bend_row import Bends
-    from viaspline.planning.turning.headings import HeadingLeg, costs_between, posed
+    from viaspline.planning.turning.headings import HeadingLeg, costs_between
+    from viaspline.planning.turning.posed_legs import posed
     from viaspline.trajectory.limits import Limits
     from viaspline.trajectory.yielding.law_among import law_among
     from viaspline.world.moving_obstacles import MovingObstacles

@@ -179,3 +179,20 @@ def test_the_headings_that_are_tried_turn_with_the_world_and_one_halves_the_turn
     along = laid.spans[laid.begins[2], 1] - laid.spans[laid.begins[2], 0]
     halved = math.atan2(along[1], along[0])
     assert math.remainder(tried(rows)[0] - halved, math.tau) == pytest.approx(0.0, abs=1e-3)
+
+
+def test_headings_with_room_are_found_where_the_cheapest_have_none_at_one_end() -> None:
+    """The cheapest pairs of a leg all had one heading that is blocked: nothing else was tried."""
+    boxes = ((13.9, 3.3211, 14.1, 7), (13.9, 10.7649, 14.1, 14), (0, 6.9, 3.1404, 7.1))
+    mission = {
+        "world": {"known": [
+            {"polygon": [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]} for x0, y0, x1, y1 in boxes
+        ]},
+        "robot": {"radius_m": 0.3, "clearance_m": 0.2, "max_speed_mps": 0.4,
+                  "max_accel_mps2": 0.3, "max_lateral_accel_mps2": 0.6},
+        "route": {"start": [10.536, 6.34], "via": [[14.66, 12.177], [0.65, 7.66]],
+                  "goal": [14.659, 3.287]},
+    }  # fmt: skip
+    plan = vs.plan(vs.Mission.model_validate(mission))
+    assert plan.drivability.verdict == "good"
+    assert plan.drivability.sharpest_radius >= 0.3

@@ -20,11 +20,10 @@ from viaspline.planning.turning.clear_ends import with_clear_ends
 from viaspline.planning.turning.headings import (
     HEADING_COUNT,
     HeadingLeg,
-    Poses,
     costs_between,
-    posed,
     with_room,
 )
+from viaspline.planning.turning.posed_legs import Poses, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_problem import TurnProblem
 
@@ -43,12 +42,15 @@ class JointHeadings:
         max_pushed_pairs: Pairs of headings of a leg for which it is pushed, until one of them can
             be cleared.
         headings: That are tried at each via point, evenly round it.
+        settled_within: Of the shortest row's length, clear or not: what is longer is compared with
+            what other methods find.
     """
 
     max_rows: int = 300
     max_pushed_rows: int = 40
     max_pushed_pairs: int = 16
     headings: int = HEADING_COUNT
+    settled_within: float = math.inf
 
     def lay(self, problem: TurnProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
         """See ``Method``."""
@@ -59,7 +61,23 @@ class JointHeadings:
         roomy = problem.without_blocked_spots(spline_path)
         if roomy is not None:
             return self.lay(roomy, bound)
-        return Found(spline_path, problem.path.cost(spline_path))
+        return Found(spline_path, problem.path.cost(spline_path), self._settles(problem, poses))
+
+    def _settles(self, problem: TurnProblem, poses: Poses) -> bool:
+        """Whether no other method need be asked: where hardly any row could be shorter."""
+        if math.isinf(self.settled_within):
+            return True
+        legs, costs = self._legs(problem, problem.vias)
+        least = _least_length(legs, costs, problem.path.sequence.closed)
+        return poses.length <= self.settled_within * least
+
+    def _legs(
+        self, problem: TurnProblem, sought: Collection[int]
+    ) -> tuple[tuple[HeadingLeg, ...], Floats]:
+        """The legs between headings at some via points, and what they cost."""
+        needs = problem.path.requirements
+        legs = problem.heading_legs(sought, self.headings)
+        return with_room(legs, costs_between(legs, needs), needs)
 
     def poses(
         self, problem: TurnProblem, sought: Collection[int], bound: float = math.inf
@@ -73,8 +91,7 @@ class JointHeadings:
         """
         needs, closed = problem.path.requirements, problem.path.sequence.closed
         bound = needs.objective.metres(bound)
-        legs = problem.heading_legs(sought, self.headings)
-        legs, costs = with_room(legs, costs_between(legs, needs), needs)
+        legs, costs = self._legs(problem, sought)
         as_it_is, pushed = map(problem.on_sides, (turn_path_if_clear, clear_turn_path))
         found = posed(legs, costs, closed, as_it_is, self.max_rows, self.max_rows, bound)
         if found is not None:

@@ -53,7 +53,7 @@ BODY_METHODS: tuple[PathMethod, ...] = (
         RounderTurns(TurnsOnShortest(), NEARBY_HEADINGS),
         AtRadii((
             NextHomotopyClasses(),
-            JointHeadings(),
+            JointHeadings(settled_within=1.05),
             GapsForBody(),
             HybridAStar(),
         )),

@@ -15,7 +15,8 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.turning.bend_row import DETOUR
-from viaspline.planning.turning.headings import HeadingLeg, Lay
+from viaspline.planning.turning.headings import HeadingLeg
+from viaspline.planning.turning.posed_legs import Lay
 
 FREE = np.array([math.nan])
 

@@ -15,8 +15,9 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.bend_row import DETOUR, Bends
 from viaspline.planning.turning.driven_problem import LOOP_RAD, DrivenProblem
-from viaspline.planning.turning.headings import HeadingLeg, Poses, legs_of
+from viaspline.planning.turning.headings import HeadingLeg, legs_of
 from viaspline.planning.turning.laid_turns import through_turns
+from viaspline.planning.turning.posed_legs import Poses
 from viaspline.planning.turning.repair import Stuck, clear_turn_path_or_why
 from viaspline.planning.turning.turn_path import TurnPath
 from viaspline.world.world import World

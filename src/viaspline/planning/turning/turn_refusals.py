@@ -20,8 +20,9 @@ from viaspline.planning.routing.side_refusals import (
     sides_in_words,
 )
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.headings import HEADING_COUNT, Poses, costs_between, posed
+from viaspline.planning.turning.headings import HEADING_COUNT, costs_between
 from viaspline.planning.turning.laid_turns import through_turns
+from viaspline.planning.turning.posed_legs import Poses, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_path import OVERSHOOT
 from viaspline.planning.turning.turn_problem import TurnProblem
