@@ -29,6 +29,9 @@ than what is gained by one of so many turns."""
 MOST_GAPS, LEAST_TURN_RAD = 4, 0.3
 """A leg among much else is led past the gaps in which it turns most, and by so much at least."""
 
+NEARLY_AS_SOON = 1.02
+"""Of what is laid, that turns of a row promise at most: bent it may be the sooner one."""
+
 MOST_STUCK = 3
 """Rows for which no rounder turns are found, after which none are sought any more."""
 
@@ -64,7 +67,7 @@ class OtherSides:
         def attempt(row: TautRow, bound: float) -> Attempt[SplinePath]:
             choices = problem.kept_lanes.bends_along(row.taut_paths)
             first = next(choices)
-            if not problem.is_promising(first, bound):
+            if not problem.is_promising(first, NEARLY_AS_SOON * bound):
                 return Attempt(None)
             laid = problem.turns_along(row.taut_paths, chain((first,), choices))
             if laid is None:

@@ -18,6 +18,7 @@ from viaspline.planning.turning.lane_stays import LegLane
 from viaspline.planning.turning.lane_turns import LaneTurns
 from viaspline.planning.turning.local_detours import LANE_REACHES, local_bends
 from viaspline.planning.turning.turning_problem import TurningProblem
+from viaspline.planning.turning.wide_turns import MAX_NARROWINGS
 
 DEAR_LANE = 1.1  # driven time of a leg on its line over the shortest way's; nobody asked for that
 
@@ -87,11 +88,20 @@ class KeptLanes:
         known = zip(self.problem.shortest_row.taut_paths, self._shortest_local, strict=True)
         turns = self._lane_turns(reach)
         return tuple(
-            bends if taut_path is shortest else self._local(leg, taut_path, turns)
+            bends if taut_path is shortest else self._on_other_side(leg, taut_path, turns)
             for leg, (taut_path, (shortest, bends)) in enumerate(
                 zip(taut_paths, known, strict=True)
             )
         )
+
+    def _on_other_side(self, leg: int, taut_path: TautPath, turns: LaneTurns) -> LegBends | None:
+        """The bends of a leg on another side: it keeps to its line if it does on its shortest way.
+
+        Where that is dear there, it is left here as well if it is dear.
+        """
+        is_kept = self._shortest_local[leg] is not None
+        lay = self._local if is_kept else self._worth_keeping
+        return lay(leg, taut_path, turns)
 
     @cached_property
     def _shortest_local(self) -> tuple[LegBends | None, ...]:
@@ -105,14 +115,16 @@ class KeptLanes:
         self, taut_paths: Sequence[TautPath], reach: float
     ) -> tuple[LegBends | None, ...]:
         turns = self._lane_turns(reach)
-        kept = [self._local(leg, taut_path, turns) for leg, taut_path in enumerate(taut_paths)]
-        needs = self.problem.requirements
-        if needs.detours == "local" or not needs.objective.is_time:
-            return tuple(kept)
         return tuple(
-            None if bends is None or self._is_dear(leg, bends, LegBends.along(taut_path)) else bends
-            for leg, (bends, taut_path) in enumerate(zip(kept, taut_paths, strict=True))
+            self._worth_keeping(leg, taut_path, turns) for leg, taut_path in enumerate(taut_paths)
         )
+
+    def _worth_keeping(self, leg: int, taut_path: TautPath, turns: LaneTurns) -> LegBends | None:
+        """The bends of a leg that keeps to its line; None where that is dear and not asked for."""
+        kept, needs = self._local(leg, taut_path, turns), self.problem.requirements
+        if kept is None or needs.detours == "local" or not needs.objective.is_time:
+            return kept
+        return None if self._is_dear(leg, kept, LegBends.along(taut_path)) else kept
 
     def _local(self, leg: int, taut_path: TautPath, turns: LaneTurns) -> LegBends | None:
         """The bends of a leg that keeps to its line as long as it can; see ``local_bends``."""
@@ -125,8 +137,8 @@ class KeptLanes:
     def _is_dear(self, leg: int, kept: LegBends, short: LegBends) -> bool:
         """Whether it takes much longer to keep to a leg's line than to take the shortest way."""
         alone = self._alone(leg)
-        ideal_time = self.problem.ideal_time
-        times = [ideal_time(alone, bends_of_legs(alone, [one])) for one in (kept, short)]
+        rows = (bends_of_legs(alone, [one]) for one in (kept, short))
+        times = [self.problem.ideal_time(alone, row, MAX_NARROWINGS) for row in rows]
         return times[0] > DEAR_LANE * times[1] > 0.0
 
     def _lane_turns(self, reach: float) -> LaneTurns:

@@ -252,9 +252,15 @@ class TurningProblem(PathProblem):
         least = leg_time(line, pace.beside_zones, stands)
         return leg_time(spline_path.leg(leg), pace, stands) > MUCH_LOST * least
 
-    def ideal_time(self, sequence: ViaSequence, bends: Bends) -> float:
-        """The driven time of turns with nothing else beside them; 0 where there are none [s]."""
-        ideal = self.wide_turns(self.sharpest).ideal(bends, self.requirements)
+    def ideal_time(self, sequence: ViaSequence, bends: Bends, narrowings: int = 0) -> float:
+        """The driven time of turns with nothing else beside them; 0 where there are none [s].
+
+        Args:
+            sequence: What they lead through.
+            bends: What they go round.
+            narrowings: See ``WideTurns.ideal``.
+        """
+        ideal = self.wide_turns(self.sharpest).ideal(bends, self.requirements, narrowings)
         if ideal is None:
             return 0.0
         at_vias = ideal.bends.vias != DETOUR

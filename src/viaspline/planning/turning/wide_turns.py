@@ -37,7 +37,6 @@ from viaspline.planning.turning.turn_path import (
     TurnPath,
     laid_turns,
     settled_turns,
-    turn_path_on_sides,
 )
 from viaspline.world.world import World
 
@@ -144,15 +143,27 @@ class WideTurns:
             radii = narrowed
         return np.concatenate([np.arange(pair.min(), pair.max() + 1) for pair in tight])
 
-    def ideal(self, bends: Bends, requirements: Requirements) -> TurnPath | None:
-        """The turn path with the widest turns, clear or not; None where they overlap."""
+    def ideal(
+        self, bends: Bends, requirements: Requirements, narrowings: int = 0
+    ) -> TurnPath | None:
+        """The turn path with the widest turns, clear or not; None where they overlap.
+
+        Args:
+            bends: The row.
+            requirements: With what may be spent.
+            narrowings: How often those that overlap are narrowed.
+        """
         requirements.spend(TURN_WISHES_S + turn_path_s(len(bends.rows)))
         narrowest = self._least_turns(bends, requirements)
         if isinstance(narrowest, NoTurnPath):
             return None
         radii = self._wished(bends, narrowest, self._wishes(narrowest))
-        found = turn_path_on_sides(bends.turning(radii))
-        return found if isinstance(found, TurnPath) else None
+        for _ in range(narrowings + 1):
+            found = settled_turns(bends.turning(radii))
+            if isinstance(found, SettledTurns):
+                return laid_turns(found)
+            radii = _narrowed(radii, _pairs(found.left, found.lines), radii, self.least)
+        return None
 
     def _least_turns(self, bends: Bends, requirements: Requirements) -> SettledTurns | NoTurnPath:
         """Where the least turns lie; a row is told the time of and then laid, mostly."""
