@@ -103,16 +103,18 @@ def _all_tightened(legs: RouteLegs, proven: set[int], check: Check) -> tuple[Rou
     led = [leg for leg, inner in enumerate(legs.inner) if inner is not None]
     while pending := [leg for leg in led if leg not in proven]:
         tighter = _tightened(legs, pending[0], check)
-        proven = _unchanged(tighter, legs, proven) | {pending[0]}
-        legs = tighter
+        kept = proven if tighter is legs else _unchanged(tighter, legs, proven)
+        legs, proven = tighter, kept | {pending[0]}
     return legs, proven
 
 
 def _tightened(legs: RouteLegs, leg: int, check: Check) -> RouteLegs:
-    """A route with one leg as gentle as it can be."""
+    """A route with one leg as gentle as it can be; itself, where that leg is clear as it is."""
     inner = legs.inner[leg]
     assert inner is not None  # the spline has no corners to tighten
     polygon = tightened_leg(legs.polygon(leg, inner), leg, check)
+    if np.array_equal(polygon.radii, legs.radii[leg]):
+        return legs
     radii = (*legs.radii[:leg], polygon.radii, *legs.radii[leg + 1 :])
     return replace(legs, radii=radii)
 
