@@ -13,10 +13,8 @@ from viaspline.space.laying.clear_route import StuckLegError
 from viaspline.space.laying.laid_route import RouteLegs
 from viaspline.space.laying.otherwise_laid import Change, changes, straight_changes
 from viaspline.space.laying.sooner_corners import with_fewer
-from viaspline.space.laying.via_turns import ROOMY
 from viaspline.space.led_route import LedRoute, LedWay, RouteLayer
 from viaspline.space.route_law import cost_of
-from viaspline.space.weighed_ways import least_radius
 
 MOST_LEGS: Final = 8
 """Of so many legs at most it is tried for each by itself which of its ways are better."""
@@ -184,7 +182,8 @@ class CheapestRoute:
         See ``changes``; where the length counts turns are close already.
         """
         gain = LEAST_GAIN if self.layer.problem.objective == "time" else LEAST_SHORTER
-        return self._changed(found, changes(found.route.legs, self.layer.radius, self.close), gain)
+        legs = found.route.legs
+        return self._changed(found, changes(legs, self.layer.radius, legs.close), gain)
 
     def _and_straight(self, found: PricedRoute) -> Sequence[LedRoute]:
         """A route, after one with straight ways between turns on clear legs if that is cheaper.
@@ -193,14 +192,10 @@ class CheapestRoute:
         """
         if self.layer.problem.keeps_spline:
             return [found.route]
-        ways = straight_changes(found.route.legs, self.layer.radius, self.close)
+        legs = found.route.legs
+        ways = straight_changes(legs, self.layer.radius, legs.close)
         straight = self._changed(found, ways, LEAST_GAIN)
         return [found.route] if straight is found else [straight.route, found.route]
-
-    @property
-    def close(self) -> float:
-        """Radius of turns that are as close as may be [m]."""
-        return ROOMY * least_radius(self.layer.problem)
 
     def _changed(self, found: PricedRoute, ways: Iterable[Change], gain: float) -> PricedRoute:
         """A route with those of some changes that make it cheaper, one after the other.

@@ -65,15 +65,17 @@ def with_heights(
     """
     if heights.shape[1] == 0:
         return spans, np.arange(len(spans) + 1)
-    via_distances = np.asarray(PiecewiseCubic(spans).distance(joints.astype(float)))
+    ground = PiecewiseCubic(spans)
+    via_distances = np.asarray(ground.distance(joints.astype(float)))
     climbs = (np.diff(heights, axis=0) != 0.0).any(axis=1)
-    spans, begins = _cut(spans, [
+    ground, begins = _cut(ground, [
         a + part * (b - a)
         for (a, b), climbs_there in zip(pairwise(via_distances.tolist()), climbs, strict=True)
         if climbs_there
         for part in (RAMP, 1.0 - RAMP)
     ])  # fmt: skip
-    along = np.asarray(PiecewiseCubic(spans).distance(np.arange(len(spans) + 1.0)))
+    spans = ground.spans
+    along = np.asarray(ground.distance(np.arange(len(spans) + 1.0)))
     along[begins[joints]] = via_distances  # but for rounding
     profile = _profile(via_distances, heights, _via_slopes(via_distances, heights, closed))
     at, slope = profile(along), profile(along, 1)
@@ -83,30 +85,21 @@ def with_heights(
     return np.concatenate((spans, np.stack(rows, axis=1)), axis=2), begins
 
 
-def _cut(spans: Floats, distances: list[float]) -> tuple[Floats, NDArray[np.int64]]:
-    """Spans cut at some distances along them [m], and where each of them begins then, (m + 1,)."""
-    u = np.asarray(PiecewiseCubic(spans).parameter(distances)) if distances else np.empty(0)
-    places = np.floor(u).astype(np.intp)
-    pieces: list[Floats] = []
-    begins = [0]
-    for k, span in enumerate(spans):
-        parts = u[places == k] - k
-        rest, done = span, 0.0
-        for part in parts[(parts > SAME_JOINT) & (parts < 1.0 - SAME_JOINT)].tolist():
-            before, rest = _halves(rest, (part - done) / (1.0 - done))
-            pieces.append(before)
-            done = part
-        pieces.append(rest)
-        begins.append(len(pieces))
-    return np.array(pieces), np.array(begins, np.int64)
+def _cut(curve: PiecewiseCubic, distances: list[float]) -> tuple[PiecewiseCubic, NDArray[np.int64]]:
+    """A curve with joints at some distances [m], and where each of its spans begins then, (m + 1,).
 
-
-def _halves(span: Floats, t: float) -> tuple[Floats, Floats]:
-    """Both parts of a span (4, d), by de Casteljau's construction."""
-    rows = [span]
-    while len(rows[-1]) > 1:
-        rows.append((1.0 - t) * rows[-1][:-1] + t * rows[-1][1:])
-    return np.array([row[0] for row in rows]), np.array([row[-1] for row in rows[::-1]])
+    Args:
+        curve: Of m spans.
+        distances: In order.
+    """
+    spans = np.arange(len(curve.spans) + 1)
+    if not distances:
+        return curve, spans
+    u = np.asarray(curve.parameter(distances))
+    cuts = u[np.abs(u - np.rint(u)) > SAME_JOINT]
+    ends = [0.0, *cuts.tolist(), curve.domain[1]]
+    parts = [curve.section(first, last).spans for first, last in pairwise(ends)]
+    return PiecewiseCubic(np.concatenate(parts)), spans + np.searchsorted(cuts, spans)
 
 
 def _profile(via_distances: Floats, heights: Floats, slopes: Floats) -> PPoly:

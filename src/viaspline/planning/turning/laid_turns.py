@@ -53,13 +53,13 @@ def through_spans(
         joints: The span that begins at each via point, as in ``SplinePath``.
         detours: Spans that begin at a detour via point.
     """
-    ends = [*sequence.vias, sequence.vias[0]] if sequence.closed else sequence.vias
-    spans, begins = with_heights(spans, joints, sequence.places[:, 2:], sequence.closed)
+    places = sequence.places
+    spans, begins = with_heights(spans, joints, places[:, 2:], sequence.closed)
     joints, detours = begins[joints], begins[list(detours)].tolist()
     spans[1:, 0] = spans[:-1, 3]  # they meet but for rounding
-    for u, via in zip(joints, ends, strict=True):
+    for u, at in zip(joints, places, strict=True):
         if u < len(spans):
-            spans[u, 0] = via.at
+            spans[u, 0] = at
         if u > 0:
-            spans[u - 1, 3] = via.at
+            spans[u - 1, 3] = at
     return SplinePath.through(sequence, spans, joints, detours)

@@ -25,7 +25,7 @@ def check_driving_time(plan: Plan, step: float) -> None:
     """
     law = plan.trajectory
     stood = sum(station.dwell for station in law.stations)
-    seconds = law.end_time - law.start_time - stood
+    seconds = law.duration - stood
     if seconds / step <= MOST_SAMPLES:
         return
     most = MOST_SAMPLES * step
